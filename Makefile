@@ -1,0 +1,36 @@
+# make demo    set up, build, find the sharp features of a real model
+# make build   set up, build the program: build/release/bin/keenline
+# make test    set up, build, run the tests
+# make check   the slower checks: sanitizers, fuzzing, format, lint, the installed package
+# make benchmark   accuracy on the benchmark clouds, where they are present
+
+.PHONY: build demo test check benchmark format clean
+.DEFAULT_GOAL := build
+
+build:
+	scripts/setup.sh build
+	cmake --preset release
+	cmake --build --preset release
+
+demo: build
+	scripts/demo.sh build/release/bin/keenline build/demo
+
+test:
+	scripts/setup.sh test
+	cmake --preset test
+	cmake --build --preset test
+	ctest --preset test
+
+check:
+	scripts/setup.sh check
+	scripts/check.sh
+
+benchmark: build
+	bench/edge_benchmark.sh build/release/bin/keenline ../shared/data/edge-benchmark build/benchmark
+
+format:
+	scripts/setup.sh check
+	scripts/format.sh
+
+clean:
+	rm -rf build

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "keenline/detect/registry.h"
+#include "keenline/errors.h"
+#include "keenline/memory.h"
+#include "keenline/pipeline.h"
+#include "terminal.h"
+
+namespace keenline::cli {
+namespace {
+
+struct DetectArguments {
+  DetectJob job;
+  std::map<std::string, std::string> options;  // method options as typed
+  std::map<std::string, bool> flags;
+  int threads = 0;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// One flag for every option of every method: methods share a name only for the same thing.
+void add_method_options(CLI::App& command, DetectArguments& arguments) {
+  std::set<std::string, std::less<>> known;
+  for (const Method& method : methods()) {
+    for (const OptionInfo& option : method.options) {
+      const std::string name(option.name);
+      if (!known.insert(name).second) continue;
+      if (option.type == OptionInfo::Type::Flag) {
+        command.add_flag("--" + name, arguments.flags[name], std::string(option.summary))->group("Method");
+        continue;
+      }
+      const std::string value = option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic);
+      command.add_option("--" + name, arguments.options[name], fmt::format("{} ({}; default {})", option.summary, range_of(option), value))
+          ->type_name("")
+          ->group("Method");
+    }
+  }
+}
+
+/// \throw InvalidArgument with the allowed range.
+OptionValues parsed_options(const CLI::App& command, const DetectArguments& arguments) {
+  const Method& method = find_method(arguments.job.method);
+  OptionValues values;
+  for (const auto& [name, text] : arguments.options) {
+    if (command.count("--" + name) == 0) continue;
+    const auto option = std::find_if(method.options.begin(), method.options.end(), [&](const OptionInfo& o) { return o.name == name; });
+    // An option of another method: resolve_options says so.
+    values[name] = option == method.options.end() ? std::nullopt : parse_option(*option, text);
+  }
+  for (const auto& [name, set] : arguments.flags)
+    if (set) values[name] = 1;
+  return values;
+}
+
+std::map<std::string, std::size_t> counts_per_kind(const FeatureLabels& labels) {
+  std::map<std::string, std::size_t> counts;
+  for (const Kind kind : all_kinds) counts[std::string(name_of(kind))] = 0;
+  for (const Kind kind : labels.kind) ++counts[std::string(name_of(kind))];
+  return counts;
+}
+
+std::size_t count_features(const FeatureLabels& labels) {
+  return static_cast<std::size_t>(std::count_if(labels.kind.begin(), labels.kind.end(), is_feature));
+}
+
+nlohmann::json json_options(const Method& method, const OptionValues& values) {
+  nlohmann::json object = nlohmann::json::object();
+  for (const OptionInfo& option : method.options) {
+    const std::string name(option.name);
+    const std::optional<double>& value = values.at(name);
+    if (!value) object[name] = option.automatic;
+    else if (option.type == OptionInfo::Type::Flag) object[name] = *value != 0;
+    else if (option.type == OptionInfo::Type::Integer) object[name] = static_cast<std::int64_t>(*value);
+    else object[name] = *value;
+  }
+  return object;
+}
+
+void print_json_report(const DetectArguments& arguments, const DetectReport& report) {
+  const StageTimes& times = report.times;
+  print_json({{"input", arguments.job.input},
+              {"output", arguments.job.output},
+              {"format", report.format},
+              {"encoding", report.encoding},
+              {"points", report.points},
+              {"finite_points", report.finite_points},
+              {"method", arguments.job.method},
+              {"options", json_options(find_method(arguments.job.method), report.options)},
+              {"counts", counts_per_kind(report.labels)},
+              {"feature_points", count_features(report.labels)},
+              {"notes", report.notes},
+              {"timings_s",
+               {{"read", times.read_s},
+                {"neighborhoods", times.neighborhoods_s},
+                {"detect", times.detect_s},
+                {"write", times.write_s},
+                {"total", times.total_s}}},
+              {"peak_memory_bytes", peak_memory()}});
+}
+
+std::string option_words(const Method& method, const OptionValues& values) {
+  std::string words;
+  for (const OptionInfo& option : method.options) {
+    const std::optional<double>& value = values.at(std::string(option.name));
+    if (option.type == OptionInfo::Type::Flag) {
+      if (value == 1.0) words += fmt::format(", {}", option.name);
+      continue;
+    }
+    words += fmt::format(", {} {}", option.name, value ? fmt::format("{}", *value) : std::string(option.automatic));
+  }
+  return words;
+}
+
+void print_summary(const DetectArguments& arguments, const DetectReport& report) {
+  const Method& method = find_method(arguments.job.method);
+  std::string text = fmt::format("{}: {} points ({}, {}), {:.2f} s\n", escaped(arguments.job.input, 4096), grouped(report.points),
+                                 report.format, escaped(report.encoding), report.times.total_s);
+  text += fmt::format("method {}{}\n", method.name, option_words(method, report.options));
+  const auto counts = counts_per_kind(report.labels);
+  for (const Kind kind : all_kinds) {
+    const std::size_t count = counts.at(std::string(name_of(kind)));
+    if (count == 0) continue;
+    text += fmt::format("  {:<10} {:>12}  {:5.1f} %\n", name_of(kind), grouped(count),
+                        100.0 * static_cast<double>(count) / static_cast<double>(report.points));
+  }
+  text += fmt::format("{} sharp points; result in {}\n", grouped(count_features(report.labels)), escaped(arguments.job.output, 4096));
+  print(text);
+}
+
+void detect(const CLI::App& command, DetectArguments& arguments) {
+  const ThreadLimit threads(arguments.threads);
+  arguments.job.options = parsed_options(command, arguments);
+  const DetectReport report = [&] {
+    TerminalProgress progress(arguments.quiet);
+    return run_detect(arguments.job, progress);
+  }();
+  if (!arguments.quiet) print_notes(arguments.job.input, report.notes);
+  if (arguments.json) print_json_report(arguments, report);
+  else if (!arguments.quiet) print_summary(arguments, report);
+}
+
+}  // namespace
+
+void add_detect(CLI::App& app, Action& action) {
+  CLI::App* const command = app.add_subcommand("detect", "Label the points of a cloud that lie on sharp edges and corners");
+  const auto arguments = std::make_shared<DetectArguments>();
+  command->add_option("INPUT", arguments->job.input, "Point cloud or mesh: PLY, PCD, LAS, OFF, OBJ, STL, XYZ, TXT, CSV")->required();
+  command->add_option("-o,--output", arguments->job.output, "Result: .ply (binary) or .csv")->required()->type_name("OUT");
+  command->add_option("--method", arguments->job.method, "One of: keenline methods")->capture_default_str()->type_name("NAME");
+  add_method_options(*command, *arguments);
+  command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
+  command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
+  command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");
+  command->callback([&action, command, arguments] { action = [command, arguments] { detect(*command, *arguments); }; });
+}
+
+}  // namespace keenline::cli

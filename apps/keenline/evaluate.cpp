@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "keenline/errors.h"
+#include "keenline/evaluate/evaluate.h"
+#include "keenline/io/read.h"
+#include "terminal.h"
+
+namespace keenline::cli {
+namespace {
+
+struct EvaluateArguments {
+  std::vector<std::string> predictions;
+  std::string truth;
+  int threads = 0;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// \throw InputError naming the prediction when it cannot be compared: the fault is in the files, not in the call.
+Confusion compare_file(const std::string& path, const std::optional<PointCloud>& truth, Progress& progress) {
+  const PointCloud prediction = read_cloud(path, progress).cloud;
+  try {
+    return compare(prediction, truth ? *truth : prediction);
+  } catch (const InvalidArgument& e) {
+    throw InputError(path, e.what());
+  }
+}
+
+nlohmann::json json_scores(const Scores& s) {
+  return {{"precision", s.precision}, {"recall", s.recall}, {"f1", s.f1}, {"mcc", s.mcc}, {"iou", s.iou}};
+}
+
+void print_json_evaluation(const EvaluateArguments& arguments, const std::vector<Confusion>& confusions, const Summary& summary) {
+  nlohmann::json files = nlohmann::json::array();
+  for (std::size_t i = 0; i < confusions.size(); ++i) {
+    const Confusion& c = confusions[i];
+    nlohmann::json file = json_scores(scores(c));
+    file["file"] = arguments.predictions[i];
+    file["true_positive"] = c.true_positive;
+    file["false_positive"] = c.false_positive;
+    file["false_negative"] = c.false_negative;
+    file["true_negative"] = c.true_negative;
+    files.push_back(file);
+  }
+  print_json({{"files", files},
+              {"macro_mean", json_scores(summary.macro_mean)},
+              {"median", json_scores(summary.median)},
+              {"micro", json_scores(summary.micro)}});
+}
+
+void print_evaluation(const EvaluateArguments& arguments, const std::vector<Confusion>& confusions, const Summary& summary) {
+  std::vector<std::string> names;
+  for (const std::string& path : arguments.predictions) names.push_back(escaped(path, 4096));
+  std::size_t width = std::string_view("macro mean").size();
+  for (const std::string& name : names) width = std::max(width, name.size());
+  std::string text = fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", width, "precision", "recall", "F1", "MCC", "IoU");
+  const auto row = [&](const std::string& name, const Scores& s) {
+    text += fmt::format("{:<{}} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", name, width, s.precision, s.recall, s.f1, s.mcc, s.iou);
+  };
+  for (std::size_t i = 0; i < confusions.size(); ++i) row(names[i], scores(confusions[i]));
+  row("macro mean", summary.macro_mean);
+  row("median", summary.median);
+  row("micro", summary.micro);
+  print(text);
+}
+
+void evaluate(const EvaluateArguments& arguments) {
+  const ThreadLimit threads(arguments.threads);
+  std::vector<Confusion> confusions;
+  {
+    TerminalProgress progress(arguments.quiet);
+    std::optional<PointCloud> truth;
+    if (!arguments.truth.empty()) truth = read_cloud(arguments.truth, progress).cloud;
+    for (const std::string& path : arguments.predictions) confusions.push_back(compare_file(path, truth, progress));
+  }
+  const Summary summary = summarize(confusions);
+  if (arguments.json)
+    print_json_evaluation(arguments, confusions, summary);
+  else
+    print_evaluation(arguments, confusions, summary);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Action& action) {
+  CLI::App* const command = app.add_subcommand("evaluate", "Measure labels against the truth: precision, recall, F1, MCC, IoU");
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  command->add_option("PREDICTION", arguments->predictions, "Labelled clouds: attribute feature, and truth or truth_feature")->required();
+  command->add_option("--truth", arguments->truth, "Take truth (or truth_feature) from this file instead")->type_name("FILE");
+  command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
+  command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the table");
+  command->add_flag("--quiet", arguments->quiet, "No progress");
+  command->callback([&action, arguments] { action = [arguments] { evaluate(*arguments); }; });
+}
+
+}  // namespace keenline::cli

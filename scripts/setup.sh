@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Installs what `make build`, `make test` or `make check` needs, where this is Debian or Ubuntu and we may.
+# Elsewhere it prints what is missing and succeeds when nothing is.
+set -euo pipefail
+
+level=${1:?usage: scripts/setup.sh build|test|check}
+packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libnanoflann-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev)
+tools=(c++ cmake ninja)
+headers=(Eigen/Core oneapi/tbb/parallel_for.h nanoflann.hpp CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h)
+case $level in
+  build) ;;
+  test|check)
+    packages+=(libgtest-dev python3)
+    tools+=(python3)
+    headers+=(gtest/gtest.h) ;;&
+  check)
+    packages+=(clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)
+    tools+=(clang++-14 clang-tidy-14 clang-format-14) ;;
+  test) ;;
+  *) echo "setup: unknown level '$level': expected build, test or check" >&2; exit 2 ;;
+esac
+
+if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
+  missing=()
+  for package in "${packages[@]}"; do
+    dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && exit 0
+  as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "setup: please install (as root): apt-get install ${missing[*]}" >&2
+      exit 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "setup: installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+  exit 0
+fi
+
+absent=()
+for tool in "${tools[@]}"; do
+  command -v "$tool" >/dev/null || absent+=("$tool")
+done
+if command -v c++ >/dev/null; then
+  for header in "${headers[@]}"; do
+    printf '#include <%s>\n' "$header" |
+      c++ -std=c++20 -x c++ -fsyntax-only -I/usr/include/eigen3 -I/usr/local/include -I/opt/homebrew/include - 2>/dev/null ||
+      absent+=("$header")
+  done
+fi
+if [ ${#absent[@]} -gt 0 ]; then
+  echo "setup: this is neither Debian nor Ubuntu; please install what provides: ${absent[*]}" >&2
+  exit 1
+fi

@@ -1,0 +1,47 @@
+#include "keenline/io/write.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "keenline/errors.h"
+#include "keenline/io/csv.h"
+#include "keenline/io/output_file.h"
+#include "keenline/io/ply.h"
+#include "keenline/io/text.h"
+
+namespace keenline {
+namespace {
+
+struct Writer {
+  std::string_view extension;
+  std::vector<std::string> (*write)(const PointCloud& cloud, Sink& sink, Progress& progress);
+};
+
+constexpr std::array writers{Writer{".ply", write_ply}, Writer{".csv", write_csv}};
+
+const Writer& find_writer(std::string_view path) {
+  const auto found = std::find_if(writers.begin(), writers.end(), [&](const Writer& writer) {
+    return path.size() > writer.extension.size() &&
+           starts_with_ignoring_case(path.substr(path.size() - writer.extension.size()), writer.extension);
+  });
+  if (found == writers.end())
+    throw InvalidArgument(fmt::format("output {}: expected a name that ends in .ply or .csv", quoted(path, 4096)));
+  return *found;
+}
+
+}  // namespace
+
+void require_writable_extension(std::string_view path) { (void)find_writer(path); }
+
+std::vector<std::string> write_cloud(const std::string& path, const PointCloud& cloud, Progress& progress) {
+  const Writer& writer = find_writer(path);
+  progress.begin("writing", cloud.size());
+  OutputFile file(path);
+  std::vector<std::string> notes = writer.write(cloud, file, progress);
+  file.commit();
+  return notes;
+}
+
+}  // namespace keenline

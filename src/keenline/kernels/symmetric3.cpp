@@ -1,0 +1,60 @@
+#include "keenline/kernels/symmetric3.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace keenline::kernels {
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// Turns the plane of axes p and q so that a[p][q] becomes 0 (Golub & Van Loan, Matrix Computations, 8.5.2), and the
+/// columns of v with it.
+void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
+  if (a[p][q] == 0) return;
+  const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  const double t = (theta >= 0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(1 + theta * theta));
+  const double c = 1 / std::sqrt(1 + t * t);
+  const double s = t * c;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double kp = a[k][p];
+    const double kq = a[k][q];
+    a[k][p] = c * kp - s * kq;
+    a[k][q] = s * kp + c * kq;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double pk = a[p][k];
+    const double qk = a[q][k];
+    a[p][k] = c * pk - s * qk;
+    a[q][k] = s * pk + c * qk;
+    const double vp = v[k][p];
+    const double vq = v[k][q];
+    v[k][p] = c * vp - s * vq;
+    v[k][q] = s * vp + c * vq;
+  }
+  a[p][q] = a[q][p] = 0;
+}
+
+}  // namespace
+
+Eigen3 eigen_decomposition(const Symmetric3& matrix) {
+  Matrix a{{{matrix.xx, matrix.xy, matrix.xz}, {matrix.xy, matrix.yy, matrix.yz}, {matrix.xz, matrix.yz, matrix.zz}}};
+  Matrix v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  // Convergence is quadratic: a 3 x 3 matrix is diagonal to double precision after five sweeps at most; eight are safe.
+  for (int sweep = 0; sweep < 8 && (a[0][1] != 0 || a[0][2] != 0 || a[1][2] != 0); ++sweep) {
+    rotate(a, v, 0, 1);
+    rotate(a, v, 0, 2);
+    rotate(a, v, 1, 2);
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i][i] > a[j][j]; });
+  Eigen3 result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.values[i] = a[order[i]][order[i]];
+    for (std::size_t k = 0; k < 3; ++k) result.vectors[i][k] = v[k][order[i]];
+  }
+  return result;
+}
+
+}  // namespace keenline::kernels

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+
+namespace keenline::kernels {
+
+/// A symmetric 3 x 3 matrix.
+struct Symmetric3 {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+};
+
+/// Eigenvalues in falling order, each with a unit eigenvector.
+struct Eigen3 {
+  std::array<double, 3> values;
+  std::array<std::array<double, 3>, 3> vectors;
+};
+
+/// By Jacobi rotations in a fixed order, with + - * / and square roots only: the same bits on every CPU.
+/// Accurate to a few units in the last place of the largest entry. \pre all entries are finite
+[[nodiscard]] Eigen3 eigen_decomposition(const Symmetric3& matrix);
+
+}  // namespace keenline::kernels

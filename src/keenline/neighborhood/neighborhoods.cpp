@@ -1,0 +1,206 @@
+#include "keenline/neighborhood/neighborhoods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_sort.h>
+#include <nanoflann.hpp>
+
+#include "keenline/errors.h"
+#include "keenline/memory.h"
+
+namespace keenline {
+namespace {
+
+constexpr double far = 0x1p500;  // its square, and the sum of three of them, are finite
+
+/// Exponent e such that coordinates times 2^-e square safely: 0 for all but extreme clouds.
+/// It follows the median magnitude, so that one outlier at 1e300 does not push everything else below the smallest double.
+int scale_exponent(const std::vector<Point>& positions) {
+  constexpr std::size_t sample_size = 4096;
+  const std::size_t step = positions.size() / sample_size + 1;
+  std::vector<double> magnitudes;
+  const Point* first = nullptr;
+  for (std::size_t i = 0; i < positions.size(); i += step) {
+    const Point& p = positions[i];
+    if (!is_finite(p)) continue;
+    if (first == nullptr) first = &p;
+    // Halves, because the difference of two large coordinates may not be finite.
+    double distance = 0;
+    for (int axis = 0; axis < 3; ++axis) distance = std::max(distance, std::abs(p[axis] * 0.5 - (*first)[axis] * 0.5));
+    if (distance > 0) magnitudes.push_back(distance);
+  }
+  if (magnitudes.empty()) return 0;
+  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+  const int exponent = std::ilogb(*middle) + 1;
+  return std::abs(exponent) < 200 ? 0 : exponent;
+}
+
+/// One stored position per distinct location, and the points that lie there.
+struct Locations {
+  std::vector<Point> positions;            // scaled
+  std::vector<std::uint32_t> first;        // location -> its first entry in members; one more at the end
+  std::vector<std::uint32_t> members;      // point indices, rising within a location
+
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return positions.size(); }
+  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const { return positions[i][axis]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box& /*box*/) const {
+    return false;  // nanoflann computes it
+  }
+};
+
+Locations distinct_locations(const PointCloud& cloud) {
+  Locations locations;
+  std::vector<std::uint32_t>& members = locations.members;
+  members.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (is_finite(cloud.positions[i])) members.push_back(static_cast<std::uint32_t>(i));
+  // operator< on arrays of doubles: -0 and 0 are one location, as their difference is 0.
+  tbb::parallel_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Point& p = cloud.positions[a];
+    const Point& q = cloud.positions[b];
+    return p < q || (p == q && a < b);
+  });
+  const int exponent = scale_exponent(cloud.positions);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Point& p = cloud.positions[members[i]];
+    if (i > 0 && p == cloud.positions[members[i - 1]]) continue;
+    locations.first.push_back(static_cast<std::uint32_t>(i));
+    Point scaled{};
+    for (int axis = 0; axis < 3; ++axis) scaled[axis] = std::clamp(std::ldexp(p[axis], -exponent), -far, far);
+    locations.positions.push_back(scaled);
+  }
+  locations.first.push_back(static_cast<std::uint32_t>(members.size()));
+  return locations;
+}
+
+/// The best locations seen so far, for nanoflann, as a total order on (distance, first point of the location).
+class NearestLocations {
+ public:
+  struct Entry {
+    double distance;        // squared
+    std::uint32_t smallest; // smallest point index there: decides ties
+    std::uint32_t location;
+    bool operator<(const Entry& other) const {
+      return distance < other.distance || (distance == other.distance && smallest < other.smallest);
+    }
+  };
+
+  NearestLocations(const Locations& locations, std::size_t capacity) : locations_(locations), capacity_(capacity) {
+    entries_.reserve(capacity + 1);
+  }
+  void start(std::uint32_t query) {
+    query_ = query;
+    entries_.clear();
+  }
+  [[nodiscard]] std::span<const Entry> entries() const { return entries_; }
+
+  // What nanoflann calls.
+  [[nodiscard]] bool full() const { return entries_.size() == capacity_; }
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] bool empty() const { return entries_.empty(); }
+  void sort() {}  // they always are
+  /// A little more than the worst kept distance: nanoflann compares with "less" and sums box distances with rounding,
+  /// and a tie at the border must still be seen.
+  [[nodiscard]] double worstDist() const {
+    return full() ? entries_.back().distance * (1 + 1e-12) + std::numeric_limits<double>::min()
+                  : std::numeric_limits<double>::max();
+  }
+  bool addPoint(double distance, std::uint32_t location) {
+    if (location == query_) return true;
+    const Entry entry{distance, locations_.members[locations_.first[location]], location};
+    if (full()) {
+      if (!(entry < entries_.back())) return true;
+      entries_.pop_back();
+    }
+    entries_.insert(std::upper_bound(entries_.begin(), entries_.end(), entry), entry);
+    return true;
+  }
+
+ private:
+  const Locations& locations_;
+  std::size_t capacity_;
+  std::uint32_t query_ = 0;
+  std::vector<Entry> entries_;
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Locations, double, std::uint32_t>,
+                                                 Locations, 3, std::uint32_t>;
+
+/// The points at the found locations in the order (distance, index), at most `count`.
+void expand(const Locations& locations, std::span<const NearestLocations::Entry> entries, std::size_t count,
+            std::vector<std::uint32_t>& neighbors) {
+  neighbors.clear();
+  for (std::size_t begin = 0; begin < entries.size() && neighbors.size() < count;) {
+    // Locations at one distance share the order of their points' indices.
+    std::size_t end = begin + 1;
+    while (end < entries.size() && entries[end].distance == entries[begin].distance) ++end;
+    const std::size_t old_size = neighbors.size();
+    for (std::size_t e = begin; e < end; ++e) {
+      const std::uint32_t location = entries[e].location;
+      const std::uint32_t* const members = locations.members.data();
+      const std::uint32_t last =
+          std::min<std::uint32_t>(locations.first[location + 1], locations.first[location] + static_cast<std::uint32_t>(count));
+      neighbors.insert(neighbors.end(), members + locations.first[location], members + last);
+    }
+    std::sort(neighbors.begin() + static_cast<std::ptrdiff_t>(old_size), neighbors.end());
+    begin = end;
+  }
+  if (neighbors.size() > count) neighbors.resize(count);
+}
+
+}  // namespace
+
+Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& progress) {
+  if (count < min_neighbors || count > max_neighbors)
+    throw InvalidArgument(fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
+  const auto capacity = static_cast<std::size_t>(count);
+  require_memory(cloud.size() * (capacity * 4 + 8 + 24 + 3 * 4), "finding neighbours");
+  progress.begin("neighborhoods", cloud.size());
+
+  const Locations locations = distinct_locations(cloud);
+  progress.check();
+
+  // Every finite point finds the same number: all others, up to count, that do not coincide with it.
+  Neighborhoods result;
+  result.offsets.assign(cloud.size() + 1, 0);
+  const std::size_t distinct = locations.positions.size();
+  for (std::size_t location = 0; location < distinct; ++location) {
+    const std::size_t others = locations.members.size() - (locations.first[location + 1] - locations.first[location]);
+    for (std::uint32_t m = locations.first[location]; m < locations.first[location + 1]; ++m)
+      result.offsets[locations.members[m] + 1] = std::min(others, capacity);
+  }
+  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.indices.resize(result.offsets.back());
+  if (distinct < 2) return result;
+
+  Tree tree(3, locations, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  tree.buildIndex();
+  progress.check();
+
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distinct, 512), [&](const tbb::blocked_range<std::size_t>& range) {
+    progress.check();
+    NearestLocations nearest(locations, capacity);
+    std::vector<std::uint32_t> neighbors;
+    std::uint64_t points = 0;
+    for (std::size_t location = range.begin(); location < range.end(); ++location) {
+      nearest.start(static_cast<std::uint32_t>(location));
+      tree.findNeighbors(nearest, locations.positions[location].data(), {});
+      expand(locations, nearest.entries(), capacity, neighbors);
+      for (std::uint32_t m = locations.first[location]; m < locations.first[location + 1]; ++m, ++points)
+        std::copy(neighbors.begin(), neighbors.end(),
+                  result.indices.begin() + static_cast<std::ptrdiff_t>(result.offsets[locations.members[m]]));
+    }
+    progress.advance(points);
+  });
+  return result;
+}
+
+}  // namespace keenline

@@ -1,0 +1,95 @@
+#include "keenline/synth/portable_math.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace keenline::synth {
+namespace {
+
+/// Sum of coefficients[i] * x^i.
+template <std::size_t N>
+double horner(const std::array<double, N>& coefficients, double x) {
+  double sum = 0;
+  for (std::size_t i = N; i-- > 0;) sum = sum * x + coefficients[i];
+  return sum;
+}
+
+/// Taylor series in x^2 of sin(x)/x (first = 1) and of cos(x) (first = 0): alternating 1/(2i + first)!
+template <std::size_t N>
+constexpr std::array<double, N> alternating_factorials(int first) {
+  std::array<double, N> series{};
+  double term = 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    series[i] = term;
+    const int n = 2 * static_cast<int>(i) + first;
+    term /= -(n + 1.0) * (n + 2.0);
+  }
+  return series;
+}
+
+/// 1, sign/3, 1/5, sign/7, …
+template <std::size_t N>
+constexpr std::array<double, N> odd_reciprocals(double sign) {
+  std::array<double, N> series{};
+  for (std::size_t i = 0; i < N; ++i)
+    series[i] = (i % 2 == 0 ? 1 : sign) / (2.0 * static_cast<double>(i) + 1);
+  return series;
+}
+
+/// x in [0, 1].
+double arc_tangent(double x) {
+  constexpr double tan_of_eighth = 0.41421356237309503;  // tan(pi/8): beyond it, turn by pi/4 first
+  static constexpr auto series = odd_reciprocals<24>(-1);
+  if (x <= tan_of_eighth) return x * horner(series, x * x);
+  const double turned = (x - 1) / (x + 1);
+  return pi / 4 + turned * horner(series, turned * turned);
+}
+
+}  // namespace
+
+SinCos sin_cos(double radians) {
+  // pi/2 in three parts; the first two have so few bits that their multiples by the quadrant are exact.
+  constexpr double half_pi_1 = 0x1.921fb54400000p+0;
+  constexpr double half_pi_2 = 0x1.0b4611a600000p-34;
+  constexpr double half_pi_3 = 0x1.3198a2e037073p-69;
+  const double quadrant = std::floor(radians * (2 / pi) + 0.5);
+  const double x = ((radians - quadrant * half_pi_1) - quadrant * half_pi_2) - quadrant * half_pi_3;
+
+  static constexpr auto sin_series = alternating_factorials<9>(1);
+  static constexpr auto cos_series = alternating_factorials<10>(0);
+  const double s = x * horner(sin_series, x * x);
+  const double c = horner(cos_series, x * x);
+  switch (static_cast<long>(quadrant) & 3) {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
+  }
+}
+
+double natural_log(double x) {
+  constexpr double ln2_high = 0x1.62e42fee00000p-1;  // exact multiples, as above
+  constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent);  // in [1/2, 1)
+  if (mantissa < 0.70710678118654752) {
+    mantissa *= 2;
+    --exponent;
+  }
+  // ln m = 2 artanh((m - 1) / (m + 1))
+  static constexpr auto series = odd_reciprocals<13>(1);
+  const double t = (mantissa - 1) / (mantissa + 1);
+  return exponent * ln2_high + (2 * t * horner(series, t * t) + exponent * ln2_low);
+}
+
+double angle_of(double y, double x) {
+  const double across = std::abs(x);
+  const double up = std::abs(y);
+  if (across == 0 && up == 0) return 0;
+  const double first_octants = up <= across ? arc_tangent(up / across) : pi / 2 - arc_tangent(across / up);
+  const double half = x < 0 ? pi - first_octants : first_octants;
+  return y < 0 ? -half : half;
+}
+
+}  // namespace keenline::synth

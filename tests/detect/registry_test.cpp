@@ -1,0 +1,86 @@
+#include "keenline/detect/registry.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "keenline/cloud.h"
+#include "keenline/errors.h"
+#include "keenline/neighborhood/neighborhoods.h"
+#include "support/expect_error.h"
+
+namespace keenline {
+namespace {
+
+using test::expect_error;
+
+const OptionInfo& option(std::string_view name) {
+  for (const OptionInfo& info : find_method("gauss").options)
+    if (info.name == name) return info;
+  throw InvalidArgument("no such option");
+}
+
+TEST(Registry, EveryMethodIsCompleteAndUnique) {
+  std::set<std::string_view> names;
+  for (const Method& method : methods()) {
+    EXPECT_TRUE(names.insert(method.name).second);
+    EXPECT_FALSE(method.summary.empty());
+    EXPECT_FALSE(method.paper.empty());
+    const OptionValues defaults = resolve_options(method, {});
+    EXPECT_EQ(defaults.size(), method.options.size());
+    EXPECT_GE(method.reach(defaults), min_neighbors);
+    for (const OptionInfo& info : method.options) {
+      EXPECT_TRUE(info.default_value.has_value() || !info.automatic.empty()) << info.name;
+      EXPECT_LE(info.minimum, info.maximum) << info.name;
+    }
+  }
+  EXPECT_EQ(methods().front().name, "gauss");
+}
+
+TEST(Registry, UnknownMethodNamesTheKnown) {
+  expect_error<InvalidArgument>([] { (void)find_method("gaus"); }, "'gaus'", "gauss");
+}
+
+TEST(Registry, ParsesValuesAndTheWordForAutomatic) {
+  EXPECT_EQ(parse_option(option("sigma"), "12.5"), 12.5);
+  EXPECT_EQ(parse_option(option("sigma"), "auto"), std::nullopt);
+  EXPECT_EQ(parse_option(option("neighbors"), "255"), 255);
+}
+
+TEST(Registry, RefusesValuesWithTheAllowedRange) {
+  const auto refuses = [](std::string_view name, std::string_view text, std::string_view range) {
+    expect_error<InvalidArgument>([&] { (void)parse_option(option(name), text); }, name, text, range);
+  };
+  for (const char* const text : {"0", "-5", "90.001", "nan", "inf", "abc", "", "1e400", "20deg"})
+    refuses("sigma", text, "more than 0, up to 90 degrees, or auto");
+  for (const char* const text : {"2", "256", "16.5", "auto", "0x10"}) refuses("neighbors", text, "an integer from 3 to 255 points");
+  refuses("min-cluster", "0", "an integer from 1");
+  refuses("max-clusters", "1", "an integer from 2 to 255");
+  refuses("min-sine", "1.5", "from 0 to 1");
+}
+
+TEST(Registry, ResolvesDefaultsAndRefusesForeignOptions) {
+  const Method& gauss = find_method("gauss");
+  const OptionValues values = resolve_options(gauss, {{"sigma", 30.0}});
+  EXPECT_EQ(values.at("sigma"), 30.0);
+  EXPECT_EQ(values.at("neighbors"), 16.0);
+  EXPECT_EQ(values.at("min-cluster"), std::nullopt);
+  EXPECT_EQ(values.at("plain"), 0.0);
+  EXPECT_EQ(gauss.reach(values), 16);
+  expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"radius", 1.0}}); }, "--radius", "gauss");
+  expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"sigma", 91.0}}); }, "--sigma", "91");
+  expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"neighbors", std::nullopt}}); }, "--neighbors");
+}
+
+TEST(Registry, ReportsWhatWasChosenFromTheData) {
+  const Method& gauss = find_method("gauss");
+  OptionValues values = resolve_options(gauss, {{"sigma", std::nullopt}});
+  const PointCloud cloud;
+  const FeatureLabels labels = gauss.detect(cloud, Neighborhoods{}, values, no_progress());
+  EXPECT_EQ(labels.size(), 0U);
+  ASSERT_TRUE(values.at("sigma").has_value());
+  EXPECT_GT(*values.at("sigma"), 0);
+}
+
+}  // namespace
+}  // namespace keenline

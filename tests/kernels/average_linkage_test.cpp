@@ -1,0 +1,139 @@
+#include "keenline/kernels/average_linkage.h"
+
+#include <algorithm>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace keenline::kernels {
+namespace {
+
+using Matrix = std::vector<std::uint32_t>;
+
+/// The definition, step by step: look at every pair of clusters, merge the closest, smallest names first. Means are
+/// compared as exact fractions and computed anew from all pairs of items each time.
+std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
+  std::vector<std::vector<std::uint32_t>> clusters;
+  for (std::uint32_t i = 0; i < n; ++i) clusters.push_back({i});
+  std::vector<Merge> merges;
+  while (clusters.size() > 1) {
+    std::size_t best_a = 0;
+    std::size_t best_b = 0;
+    std::uint64_t best_sum = 0;
+    std::uint64_t best_pairs = 0;
+    for (std::size_t a = 0; a < clusters.size(); ++a)
+      for (std::size_t b = a + 1; b < clusters.size(); ++b) {
+        std::uint64_t sum = 0;
+        for (const std::uint32_t i : clusters[a])
+          for (const std::uint32_t j : clusters[b]) sum += distances[i * n + j];
+        const std::uint64_t pairs = clusters[a].size() * clusters[b].size();
+        if (best_pairs != 0 && sum * best_pairs >= best_sum * pairs) continue;
+        std::tie(best_a, best_b, best_sum, best_pairs) = std::tuple(a, b, sum, pairs);
+      }
+    auto& first = clusters[best_a];
+    auto& second = clusters[best_b];
+    merges.push_back({first.front(), second.front(), static_cast<std::uint32_t>(first.size()),
+                      static_cast<std::uint32_t>(second.size()), static_cast<double>(best_sum) / static_cast<double>(best_pairs)});
+    first.insert(first.end(), second.begin(), second.end());
+    clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(best_b));
+  }
+  return merges;
+}
+
+template <typename Sum>
+std::vector<Merge> by_chain(const Matrix& distances, std::size_t n) {
+  std::vector<Sum> sums(distances.begin(), distances.end());
+  std::vector<Merge> merges(n - 1);
+  LinkageWorkspace workspace;
+  EXPECT_TRUE(average_linkage(sums.data(), static_cast<int>(n), workspace, merges.data()));
+  return merges;
+}
+
+using Key = std::tuple<double, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+std::vector<Key> sorted_keys(const std::vector<Merge>& merges) {
+  std::vector<Key> keys;
+  for (const Merge& m : merges) keys.emplace_back(m.height, m.first, m.second, m.first_size, m.second_size);
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+Matrix random_matrix(std::size_t n, std::uint32_t levels, unsigned seed) {
+  std::mt19937 generator(seed);
+  Matrix distances(n * n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) distances[i * n + j] = distances[j * n + i] = static_cast<std::uint32_t>(generator() % levels) * (65520 / levels);
+  return distances;
+}
+
+TEST(AverageLinkage, ThreeItemsByHand) {
+  // 0 and 1 are 10 apart, 2 is 20 and 40 from them: 30 on average.
+  const Matrix distances{0, 10, 20, 10, 0, 40, 20, 40, 0};
+  const auto merges = by_chain<std::uint32_t>(distances, 3);
+  EXPECT_EQ(sorted_keys(merges), (std::vector<Key>{{10.0, 0, 1, 1, 1}, {30.0, 0, 2, 2, 1}}));
+}
+
+TEST(AverageLinkage, TiesMergeTheSmallestIndexFirst) {
+  // A path 0 - 1 - 2 with equal steps: 0 and 1 first.
+  const Matrix distances{0, 10, 30, 10, 0, 10, 30, 10, 0};
+  EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, 3)), (std::vector<Key>{{10.0, 0, 1, 1, 1}, {20.0, 0, 2, 2, 1}}));
+}
+
+TEST(AverageLinkage, EqualsTheDefinitionOnRandomDistances) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const std::size_t n = 2 + seed;
+    const Matrix distances = random_matrix(n, 65520, seed);
+    const auto expected = sorted_keys(by_definition(distances, n));
+    EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected) << "seed " << seed;
+    EXPECT_EQ(sorted_keys(by_chain<std::uint64_t>(distances, n)), expected) << "seed " << seed;
+  }
+}
+
+TEST(AverageLinkage, EqualsTheDefinitionWhereMostDistancesAreTies) {
+  for (const std::uint32_t levels : {1U, 2U, 3U, 5U})
+    for (unsigned seed = 0; seed < 25; ++seed) {
+      const std::size_t n = 3 + seed;
+      const Matrix distances = random_matrix(n, levels, seed);
+      EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), sorted_keys(by_definition(distances, n)))
+          << levels << " levels, seed " << seed;
+    }
+}
+
+TEST(AverageLinkage, HoldsTheLargestSums) {
+  const auto n = static_cast<std::size_t>(largest_count_in_32_bits);
+  Matrix distances(n * n, 65520);
+  for (std::size_t i = 0; i < n; ++i) distances[i * n + i] = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if ((i < n / 2) == (j < n / 2)) distances[i * n + j] = 0;
+  const auto merges = by_chain<std::uint32_t>(distances, n);
+  const auto highest = std::max_element(merges.begin(), merges.end(), [](const Merge& a, const Merge& b) { return a.height < b.height; });
+  EXPECT_EQ(highest->height, 65520);
+  EXPECT_EQ(highest->first_size, 256U);
+  EXPECT_EQ(highest->second_size, 256U);
+}
+
+TEST(AverageLinkage, PartsComeBeforeTheWholeAndAreNotHigher) {
+  const Matrix distances = random_matrix(60, 65520, 7);
+  std::vector<double> height(60, 0.0);
+  std::vector<std::uint32_t> size(60, 1);
+  for (const Merge& merge : by_chain<std::uint32_t>(distances, 60)) {
+    EXPECT_EQ(merge.first_size, size[merge.first]);
+    EXPECT_EQ(merge.second_size, size[merge.second]);
+    EXPECT_GE(merge.height, std::max(height[merge.first], height[merge.second]));
+    height[merge.first] = merge.height;
+    size[merge.first] += merge.second_size;
+  }
+  EXPECT_EQ(size[0], 60U);
+}
+
+TEST(AverageLinkage, StopsWhenAsked) {
+  Matrix distances = random_matrix(50, 65520, 1);
+  std::vector<Merge> merges(49);
+  LinkageWorkspace workspace;
+  EXPECT_FALSE(average_linkage(distances.data(), 50, workspace, merges.data(), [](const void*) { return true; }));
+}
+
+}  // namespace
+}  // namespace keenline::kernels
