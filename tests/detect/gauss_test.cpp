@@ -244,7 +244,7 @@ TEST_P(GaussOnAnalyticShapes, MeetsTheFiguresOfTheSpecification) {
     mean.false_positive += found.false_positive / clouds;
   }
   EXPECT_GE(mean.recall, e.recall - e.recall_scatter);
-  EXPECT_LE(mean.false_positive, e.false_positive + 0.003);
+  EXPECT_LE(mean.false_positive, e.false_positive + 0.005);
 }
 
 INSTANTIATE_TEST_SUITE_P(Specification, GaussOnAnalyticShapes,

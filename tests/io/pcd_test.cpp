@@ -244,7 +244,8 @@ TEST(Pcd, RefusesCompressedSizesThatLie) {
 TEST(Pcd, RefusesNumbersThatDoNotFitTheirField) {
   expect_refused(header("x y z r", "4 4 4 1", "F F F U", "1 1 1 1", 1, "ascii") + "1 2 3 256\n", "line 12",
                  "'256' in column 'r'", "an integer from 0 to 255");
-  expect_refused(xyz_header(1, "ascii") + "1 2 1e39\n", "line 12", "'1e39' in column 'z'", "32-bit float");
+  expect_refused(header("x y z i", "4 4 4 4", "F F F F", "1 1 1 1", 1, "ascii") + "1 2 3 1e39\n", "line 12",
+                 "'1e39' in column 'i'", "32-bit float");
   expect_refused(xyz_header(1, "ascii") + "1 2 3,5\n", "line 12", "'3,5'", "a decimal point");
 }
 
@@ -254,7 +255,7 @@ TEST(Pcd, RefusesCoordinatesThatADoubleCannotHold) {
   const std::string good = packed(two_to_53, -two_to_53, std::uint64_t{1} << 60U);
   EXPECT_EQ(read(text + good + good).cloud.positions[1], (Point{0x1p53, -0x1p53, 0x1p60}));
   expect_refused(text + good + packed(std::int64_t{0}, two_to_53 + 1, std::uint64_t{0}),
-                 "y = 9007199254740993 at point 1", "a coordinate that a 64-bit float can hold");
+                 "y = 9007199254740993 at point 1", "a number that a double holds exactly");
 }
 
 TEST(Pcd, EveryTruncationIsRefused) {

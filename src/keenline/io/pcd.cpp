@@ -6,10 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "keenline/errors.h"
+#include "keenline/io/coordinates.h"
 #include "keenline/io/lzf.h"
 #include "keenline/io/pcd_header.h"
 #include "keenline/io/records.h"
@@ -21,6 +20,10 @@
 
 namespace keenline {
 namespace {
+
+constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+
+bool is_axis(std::string_view name) { return std::find(axes.begin(), axes.end(), name) != axes.end(); }
 
 /// Lets work be cancelled that has nothing to tell: its bytes are not those of the file.
 class Silent : public Progress {
@@ -96,7 +99,7 @@ class Body {
     RowFormat format;
     for (const PcdField& field : header_.fields) {
       format.names.insert(format.names.end(), field.count, field.name);
-      format.types.insert(format.types.end(), field.count, field.type);
+      format.types.insert(format.types.end(), field.count, is_axis(field.name) ? parsed_coordinate_type(field.type) : field.type);
     }
     Rows rows = read_rows(source_, bytes_, header_.body_line, format, header_.points, progress_);
     expect_end_of_rows(rows.consumed, rows.next_line);
@@ -216,34 +219,6 @@ class Body {
   std::string_view bytes_;
 };
 
-/// \throw InputError when a 64-bit integer would not survive as a double.
-void require_exact(const Source& source, const Column& column) {
-  visit_type(column.type(), [&](auto zero) {
-    using T = decltype(zero);
-    if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
-      const auto values = column.values<T>();
-      const auto found =
-          std::find_if(values.begin(), values.end(), [](T value) { return !is_exact_in_double(value); });
-      if (found != values.end()) {
-        throw InputError(source.name, Place::file(),
-                         fmt::format("{} = {} at point {}", column.name(), *found, found - values.begin()),
-                         "a coordinate that a 64-bit float can hold");
-      }
-    }
-  });
-}
-
-void set_axis(PointCloud& cloud, std::size_t axis, const Column& column) {
-  cloud.position_types[axis] = column.type();
-  visit_type(column.type(), [&](auto zero) {
-    const auto values = column.values<decltype(zero)>();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 4096), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
-        cloud.positions[i][axis] = static_cast<double>(values[i]);
-    });
-  });
-}
-
 std::string encoding_of(const PcdHeader& header) {
   const std::string_view encoding = header.encoding == PcdEncoding::Ascii    ? "ascii"
                                     : header.encoding == PcdEncoding::Binary ? "binary"
@@ -267,16 +242,23 @@ Reading read_pcd(const Source& source, Progress& progress) {
   PointCloud& cloud = reading.cloud;
   cloud.comments = std::move(header.comments);
   cloud.positions.resize(header.points);
-  constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+  std::array<ScalarType, 3> declared{};
+  for (const PcdField& field : header.fields)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (field.name == axes[axis]) declared[axis] = field.type;
   for (Column& column : columns) {
     const auto axis = std::find(axes.begin(), axes.end(), column.name());
     if (axis == axes.end()) {
       cloud.attributes.push_back(std::move(column));
     } else {
-      require_exact(source, column);
-      set_axis(cloud, static_cast<std::size_t>(axis - axes.begin()), column);
+      const auto number = static_cast<std::size_t>(axis - axes.begin());
+      if (const auto inexact = set_axis(cloud, number, column, declared[number], progress)) {
+        throw InputError(source.name, Place::file(), fmt::format("{} = {} at point {}", column.name(), number_text(column, *inexact), *inexact),
+                         "a number that a double holds exactly");
+      }
     }
   }
+  if (cloud.position_types != declared) reading.notes.emplace_back(wide_coordinates_note);
   return reading;
 }
 

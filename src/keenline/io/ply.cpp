@@ -6,10 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "keenline/errors.h"
+#include "keenline/io/coordinates.h"
 #include "keenline/io/faces.h"
 #include "keenline/io/ply_body.h"
 #include "keenline/io/ply_header.h"
@@ -60,20 +59,38 @@ void require_points(const Source& source, const PlyHeader& header) {
   }
 }
 
+/// The declared types of x, y and z, which in an ascii file are then set to those that they are parsed as.
+/// \pre require_points()
+std::array<ScalarType, 3> take_coordinate_types(PlyHeader& header) {
+  std::array<ScalarType, 3> declared{};
+  for (PlyElement& element : header.elements) {
+    if (element.name != "vertex") continue;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto property = std::find_if(element.properties.begin(), element.properties.end(),
+                                         [&](const PlyProperty& p) { return p.name == axes[d]; });
+      declared[d] = property->type;
+      if (header.encoding == PlyEncoding::Ascii) property->type = parsed_coordinate_type(declared[d]);
+    }
+  }
+  return declared;
+}
+
 class CloudBuilder {
  public:
   CloudBuilder(const Source& source, const PlyBody& body, Progress& progress)
       : source_(source), body_(body), progress_(progress) {}
 
-  /// Moves the columns x, y, z into the positions; the others become attributes.
-  void take_vertices(PlyRows& rows) {
+  /// Moves the columns x, y, z into the positions; the others become attributes. `declared`: the types of x, y and z
+  /// in the header.
+  void take_vertices(PlyRows& rows, const std::array<ScalarType, 3>& declared) {
     cloud.positions.resize(rows.table.rows);
     for (std::size_t d = 0; d < 3; ++d) {
       const auto column = std::find_if(rows.table.columns.begin(), rows.table.columns.end(),
                                        [&](const Column& c) { return c.name() == axes[d]; });
-      require_exact(rows, *column);
-      cloud.position_types[d] = column->type();
-      set_coordinate(d, *column);
+      if (const auto inexact = set_axis(cloud, d, *column, declared[d], progress_)) {
+        throw InputError(source_.name, body_.place_of(rows, *inexact), fmt::format("{} = {}", column->name(), number_text(*column, *inexact)),
+                         "a number that a double holds exactly");
+      }
     }
     for (Column& column : rows.table.columns) {
       if (std::find(axes.begin(), axes.end(), column.name()) == axes.end())
@@ -93,37 +110,6 @@ class CloudBuilder {
   PointCloud cloud;
 
  private:
-  void set_coordinate(std::size_t d, const Column& column) {
-    visit_type(column.type(), [&](auto zero) {
-      const auto values = column.values<decltype(zero)>();
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, values.size(), values_per_check),
-          [&](const tbb::blocked_range<std::size_t>& range) {
-            progress_.check();
-            for (std::size_t i = range.begin(); i < range.end(); ++i)
-              cloud.positions[i][d] = static_cast<double>(values[i]);
-          },
-          tbb::simple_partitioner());
-    });
-  }
-
-  void require_exact(const PlyRows& rows, const Column& column) const {
-    visit_type(column.type(), [&](auto zero) {
-      using T = decltype(zero);
-      if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
-        const auto values = column.values<T>();
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          if (i % values_per_check == 0) progress_.check();
-          if (!is_exact_in_double(values[i])) {
-            throw InputError(source_.name, body_.place_of(rows, i),
-                             fmt::format("coordinate {} = {}", column.name(), values[i]),
-                             "a number that a double holds exactly");
-          }
-        }
-      }
-    });
-  }
-
   void require_vertex_numbers(const PlyRows& rows, const Column& column) const {
     visit_type(column.type(), [&](auto zero) {
       using T = decltype(zero);
@@ -153,6 +139,7 @@ class CloudBuilder {
 Reading read_ply(const Source& source, Progress& progress) {
   PlyHeader header = read_ply_header(source);
   require_points(source, header);
+  const std::array<ScalarType, 3> declared = take_coordinate_types(header);
   PlyBody body(source, header, progress);
   std::vector<PlyRows> elements;
   for (const PlyElement& element : header.elements) elements.push_back(body.read(element));
@@ -161,7 +148,7 @@ Reading read_ply(const Source& source, Progress& progress) {
   CloudBuilder builder(source, body, progress);
   // Faces may stand before the vertices that they name.
   for (PlyRows& rows : elements)
-    if (rows.table.name == "vertex") builder.take_vertices(rows);
+    if (rows.table.name == "vertex") builder.take_vertices(rows, declared);
   for (PlyRows& rows : elements)
     if (rows.table.name != "vertex") builder.take_table(rows);
 
@@ -169,6 +156,7 @@ Reading read_ply(const Source& source, Progress& progress) {
   reading.cloud = std::move(builder.cloud);
   reading.cloud.comments = std::move(header.comments);
   reading.encoding = name_of(header.encoding);
+  if (reading.cloud.position_types != declared) reading.notes.emplace_back(wide_coordinates_note);
   return reading;
 }
 

@@ -56,28 +56,100 @@ struct Locations {
   }
 };
 
-Locations distinct_locations(const PointCloud& cloud) {
-  Locations locations;
-  std::vector<std::uint32_t>& members = locations.members;
-  members.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (is_finite(cloud.positions[i])) members.push_back(static_cast<std::uint32_t>(i));
-  // operator< on arrays of doubles: -0 and 0 are one location, as their difference is 0.
-  tbb::parallel_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Point& p = cloud.positions[a];
-    const Point& q = cloud.positions[b];
-    return p < q || (p == q && a < b);
-  });
-  const int exponent = scale_exponent(cloud.positions);
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const Point& p = cloud.positions[members[i]];
-    if (i > 0 && p == cloud.positions[members[i - 1]]) continue;
-    locations.first.push_back(static_cast<std::uint32_t>(i));
-    Point scaled{};
-    for (int axis = 0; axis < 3; ++axis) scaled[axis] = std::clamp(std::ldexp(p[axis], -exponent), -far, far);
-    locations.positions.push_back(scaled);
+Point scaled(const Point& p, int exponent) {
+  Point result{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    result[axis] = std::clamp(exponent == 0 ? p[axis] : std::ldexp(p[axis], -exponent), -far, far);
+  return result;
+}
+
+/// The 21 lowest bits, two zeros after each.
+std::uint64_t spread(std::uint64_t bits) {
+  bits &= 0x1FFFFFU;
+  bits = (bits | bits << 32U) & 0x1F00000000FFFFU;
+  bits = (bits | bits << 16U) & 0x1F0000FF0000FFU;
+  bits = (bits | bits << 8U) & 0x100F00F00F00F00FU;
+  bits = (bits | bits << 4U) & 0x10C30C30C30C30C3U;
+  return (bits | bits << 2U) & 0x1249249249249249U;
+}
+
+/// Places along a Morton curve through the bounding box: what is near on the curve is near in space.
+class MortonCurve {
+ public:
+  explicit MortonCurve(const std::vector<Point>& points) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Point high{-infinity, -infinity, -infinity};
+    low_ = {infinity, infinity, infinity};
+    for (const Point& p : points)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low_[axis] = std::min(low_[axis], p[axis]);
+        high[axis] = std::max(high[axis], p[axis]);
+      }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double extent = high[axis] - low_[axis];
+      cells_per_unit_[axis] = extent > 0 ? cells / extent : 0;
+      if (!std::isfinite(cells_per_unit_[axis])) cells_per_unit_[axis] = 0;
+    }
   }
-  locations.first.push_back(static_cast<std::uint32_t>(members.size()));
+
+  [[nodiscard]] std::uint64_t place_of(const Point& p) const {
+    std::uint64_t place = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double cell = std::min((p[axis] - low_[axis]) * cells_per_unit_[axis], cells);
+      place |= spread(static_cast<std::uint64_t>(cell)) << axis;
+    }
+    return place;
+  }
+
+ private:
+  static constexpr double cells = 2097151;  // 2^21 - 1
+  Point low_{};
+  Point cells_per_unit_{};
+};
+
+/// Locations in the order of a Morton curve, so that queries one after another touch the same memory.
+Locations distinct_locations(const PointCloud& cloud, const Progress& progress) {
+  Locations locations;
+  std::vector<Point>& positions = locations.positions;
+  const int exponent = scale_exponent(cloud.positions);
+  std::vector<std::uint32_t> finite;
+  finite.reserve(cloud.size());
+  positions.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (is_finite(cloud.positions[i])) {
+      finite.push_back(static_cast<std::uint32_t>(i));
+      positions.push_back(scaled(cloud.positions[i], exponent));
+    }
+  progress.check();
+
+  struct Key {
+    std::uint64_t place;
+    std::uint32_t point;
+  };
+  const MortonCurve curve(positions);
+  std::vector<Key> keys(finite.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 16384), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) keys[i] = {curve.place_of(positions[i]), finite[i]};
+  });
+  positions.clear();
+  tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    if (a.place != b.place) return a.place < b.place;
+    const Point& p = cloud.positions[a.point];
+    const Point& q = cloud.positions[b.point];
+    // operator== on doubles: -0 and 0 are one location, as their difference is 0.
+    return p < q || (p == q && a.point < b.point);
+  });
+  progress.check();
+
+  locations.members.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    locations.members.push_back(keys[i].point);
+    const Point& p = cloud.positions[keys[i].point];
+    if (i > 0 && p == cloud.positions[keys[i - 1].point]) continue;
+    locations.first.push_back(static_cast<std::uint32_t>(i));
+    positions.push_back(scaled(p, exponent));
+  }
+  locations.first.push_back(static_cast<std::uint32_t>(keys.size()));
   return locations;
 }
 
@@ -162,10 +234,10 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& p
   if (count < min_neighbors || count > max_neighbors)
     throw InvalidArgument(fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
   const auto capacity = static_cast<std::size_t>(count);
-  require_memory(cloud.size() * (capacity * 4 + 8 + 24 + 3 * 4), "finding neighbours");
+  require_memory(cloud.size() * (capacity * 4 + 8 + 24 + 16 + 3 * 4), "finding neighbours");
   progress.begin("neighborhoods", cloud.size());
 
-  const Locations locations = distinct_locations(cloud);
+  const Locations locations = distinct_locations(cloud, progress);
   progress.check();
 
   // Every finite point finds the same number: all others, up to count, that do not coincide with it.
