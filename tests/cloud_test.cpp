@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -13,11 +14,13 @@ namespace {
 
 TEST(Cloud, EveryScalarTypeHasItsSizeAndName) {
   const std::array sizes{1U, 1U, 2U, 2U, 4U, 4U, 8U, 8U, 4U, 8U};
-  const std::array names{"int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64"};
+  const std::array names{"int8",   "uint8", "int16",  "uint16",  "int32",
+                         "uint32", "int64", "uint64", "float32", "float64"};
   for (std::size_t t = 0; t < sizes.size(); ++t) {
     EXPECT_EQ(size_of(static_cast<ScalarType>(t)), sizes[t]);
     EXPECT_EQ(name_of(static_cast<ScalarType>(t)), names[t]);
-    visit_type(static_cast<ScalarType>(t), [&](auto zero) { EXPECT_EQ(scalar_type_of<decltype(zero)>(), static_cast<ScalarType>(t)); });
+    visit_type(static_cast<ScalarType>(t),
+               [&](auto zero) { EXPECT_EQ(scalar_type_of<decltype(zero)>(), static_cast<ScalarType>(t)); });
   }
 }
 
@@ -55,7 +58,8 @@ TEST(Cloud, SetAttributeAddsOrReplacesAndChecksTheLength) {
   EXPECT_EQ(cloud.attributes[0].type(), ScalarType::Float64);
   EXPECT_EQ(cloud.attribute("b")->value(1), 4);
   EXPECT_EQ(cloud.attribute("c"), nullptr);
-  test::expect_error<InvalidArgument>([&] { cloud.set_attribute(Column("a", std::vector<float>{1})); }, "'a'", "1 rows", "2 points");
+  test::expect_error<InvalidArgument>([&] { cloud.set_attribute(Column("a", std::vector<float>{1})); }, "'a'",
+                                      "1 rows", "2 points");
 }
 
 TEST(Cloud, CountsFinitePoints) {
@@ -63,7 +67,8 @@ TEST(Cloud, CountsFinitePoints) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double largest = std::numeric_limits<double>::max();
   PointCloud cloud;
-  cloud.positions = {{0, 0, 0}, {nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}, {largest, -largest, largest}};
+  cloud.positions = {
+      {0, 0, 0}, {nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}, {largest, -largest, largest}};
   EXPECT_EQ(count_finite(cloud), 2U);
 }
 

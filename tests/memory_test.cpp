@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -22,8 +23,8 @@ TEST(Memory, SomeIsAvailable) { EXPECT_GT(available_memory(), std::uint64_t{1} <
 
 TEST(Memory, RefusesWhatNoMachineHas) {
   EXPECT_NO_THROW(require_memory(1, "a byte"));
-  test::expect_error<OutOfMemory>([] { require_memory(std::uint64_t{1} << 60U, "a dream"); }, "a dream needs 1073741824.0 GiB",
-                                  "available");
+  test::expect_error<OutOfMemory>([] { require_memory(std::uint64_t{1} << 60U, "a dream"); },
+                                  "a dream needs 1073741824.0 GiB", "available");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
 #include "keenline/synth/synth.h"
+
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -45,7 +46,8 @@ TEST(Pipeline, FromAFileToALabelledFile) {
     const Column* const kept = out.attribute(column.name());
     ASSERT_NE(kept, nullptr) << column.name();
     EXPECT_EQ(kept->type(), column.type());
-    EXPECT_TRUE(std::equal(kept->bytes().begin(), kept->bytes().end(), column.bytes().begin(), column.bytes().end()));
+    EXPECT_TRUE(
+        std::equal(kept->bytes().begin(), kept->bytes().end(), column.bytes().begin(), column.bytes().end()));
   }
   std::size_t features = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "keenline/detect/registry.h"
 #include "keenline/errors.h"
 #include "keenline/memory.h"
 #include "keenline/pipeline.h"
+
+#include "commands.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -38,8 +39,11 @@ void add_method_options(CLI::App& command, DetectArguments& arguments) {
         command.add_flag("--" + name, arguments.flags[name], std::string(option.summary))->group("Method");
         continue;
       }
-      const std::string value = option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic);
-      command.add_option("--" + name, arguments.options[name], fmt::format("{} ({}; default {})", option.summary, range_of(option), value))
+      const std::string value =
+          option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic);
+      command
+          .add_option("--" + name, arguments.options[name],
+                      fmt::format("{} ({}; default {})", option.summary, range_of(option), value))
           ->type_name("")
           ->group("Method");
     }
@@ -52,7 +56,8 @@ OptionValues parsed_options(const CLI::App& command, const DetectArguments& argu
   OptionValues values;
   for (const auto& [name, text] : arguments.options) {
     if (command.count("--" + name) == 0) continue;
-    const auto option = std::find_if(method.options.begin(), method.options.end(), [&](const OptionInfo& o) { return o.name == name; });
+    const auto option = std::find_if(method.options.begin(), method.options.end(),
+                                     [&name = name](const OptionInfo& o) { return o.name == name; });
     // An option of another method: resolve_options says so.
     values[name] = option == method.options.end() ? std::nullopt : parse_option(*option, text);
   }
@@ -115,15 +120,17 @@ std::string option_words(const Method& method, const OptionValues& values) {
       if (value == 1.0) words += fmt::format(", {}", option.name);
       continue;
     }
-    words += fmt::format(", {} {}", option.name, value ? fmt::format("{}", *value) : std::string(option.automatic));
+    words += fmt::format(", {} {}", option.name,
+                         value ? fmt::format("{}", *value) : std::string(option.automatic));
   }
   return words;
 }
 
 void print_summary(const DetectArguments& arguments, const DetectReport& report) {
   const Method& method = find_method(arguments.job.method);
-  std::string text = fmt::format("{}: {} points ({}, {}), {:.2f} s\n", escaped(arguments.job.input, 4096), grouped(report.points),
-                                 report.format, escaped(report.encoding), report.times.total_s);
+  std::string text =
+      fmt::format("{}: {} points ({}, {}), {:.2f} s\n", escaped(arguments.job.input, 4096),
+                  grouped(report.points), report.format, escaped(report.encoding), report.times.total_s);
   text += fmt::format("method {}{}\n", method.name, option_words(method, report.options));
   const auto counts = counts_per_kind(report.labels);
   for (const Kind kind : all_kinds) {
@@ -132,7 +139,8 @@ void print_summary(const DetectArguments& arguments, const DetectReport& report)
     text += fmt::format("  {:<10} {:>12}  {:5.1f} %\n", name_of(kind), grouped(count),
                         100.0 * static_cast<double>(count) / static_cast<double>(report.points));
   }
-  text += fmt::format("{} sharp points; result in {}\n", grouped(count_features(report.labels)), escaped(arguments.job.output, 4096));
+  text += fmt::format("{} sharp points; result in {}\n", grouped(count_features(report.labels)),
+                      escaped(arguments.job.output, 4096));
   print(text);
 }
 
@@ -151,16 +159,25 @@ void detect(const CLI::App& command, DetectArguments& arguments) {
 }  // namespace
 
 void add_detect(CLI::App& app, Action& action) {
-  CLI::App* const command = app.add_subcommand("detect", "Label the points of a cloud that lie on sharp edges and corners");
+  CLI::App* const command =
+      app.add_subcommand("detect", "Label the points of a cloud that lie on sharp edges and corners");
   const auto arguments = std::make_shared<DetectArguments>();
-  command->add_option("INPUT", arguments->job.input, "Point cloud or mesh: PLY, PCD, LAS, OFF, OBJ, STL, XYZ, TXT, CSV")->required();
-  command->add_option("-o,--output", arguments->job.output, "Result: .ply (binary) or .csv")->required()->type_name("OUT");
-  command->add_option("--method", arguments->job.method, "One of: keenline methods")->capture_default_str()->type_name("NAME");
+  command
+      ->add_option("INPUT", arguments->job.input,
+                   "Point cloud or mesh: PLY, PCD, LAS, OFF, OBJ, STL, XYZ, TXT, CSV")
+      ->required();
+  command->add_option("-o,--output", arguments->job.output, "Result: .ply (binary) or .csv")
+      ->required()
+      ->type_name("OUT");
+  command->add_option("--method", arguments->job.method, "One of: keenline methods")
+      ->capture_default_str()
+      ->type_name("NAME");
   add_method_options(*command, *arguments);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
   command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");
-  command->callback([&action, command, arguments] { action = [command, arguments] { detect(*command, *arguments); }; });
+  command->callback(
+      [&action, command, arguments] { action = [command, arguments] { detect(*command, *arguments); }; });
 }
 
 }  // namespace keenline::cli

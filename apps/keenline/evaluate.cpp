@@ -1,3 +1,5 @@
+#include "keenline/evaluate/evaluate.h"
+
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -8,10 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "keenline/errors.h"
-#include "keenline/evaluate/evaluate.h"
 #include "keenline/io/read.h"
+
+#include "commands.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -25,7 +27,8 @@ struct EvaluateArguments {
   bool quiet = false;
 };
 
-/// \throw InputError naming the prediction when it cannot be compared: the fault is in the files, not in the call.
+/// \throw InputError naming the prediction when it cannot be compared: the fault is in the files, not in the
+/// call.
 Confusion compare_file(const std::string& path, const std::optional<PointCloud>& truth, Progress& progress) {
   const PointCloud prediction = read_cloud(path, progress).cloud;
   try {
@@ -39,7 +42,8 @@ nlohmann::json json_scores(const Scores& s) {
   return {{"precision", s.precision}, {"recall", s.recall}, {"f1", s.f1}, {"mcc", s.mcc}, {"iou", s.iou}};
 }
 
-void print_json_evaluation(const EvaluateArguments& arguments, const std::vector<Confusion>& confusions, const Summary& summary) {
+void print_json_evaluation(const EvaluateArguments& arguments, const std::vector<Confusion>& confusions,
+                           const Summary& summary) {
   nlohmann::json files = nlohmann::json::array();
   for (std::size_t i = 0; i < confusions.size(); ++i) {
     const Confusion& c = confusions[i];
@@ -57,14 +61,17 @@ void print_json_evaluation(const EvaluateArguments& arguments, const std::vector
               {"micro", json_scores(summary.micro)}});
 }
 
-void print_evaluation(const EvaluateArguments& arguments, const std::vector<Confusion>& confusions, const Summary& summary) {
+void print_evaluation(const EvaluateArguments& arguments, const std::vector<Confusion>& confusions,
+                      const Summary& summary) {
   std::vector<std::string> names;
   for (const std::string& path : arguments.predictions) names.push_back(escaped(path, 4096));
   std::size_t width = std::string_view("macro mean").size();
   for (const std::string& name : names) width = std::max(width, name.size());
-  std::string text = fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", width, "precision", "recall", "F1", "MCC", "IoU");
+  std::string text = fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", width, "precision", "recall",
+                                 "F1", "MCC", "IoU");
   const auto row = [&](const std::string& name, const Scores& s) {
-    text += fmt::format("{:<{}} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", name, width, s.precision, s.recall, s.f1, s.mcc, s.iou);
+    text += fmt::format("{:<{}} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", name, width, s.precision,
+                        s.recall, s.f1, s.mcc, s.iou);
   };
   for (std::size_t i = 0; i < confusions.size(); ++i) row(names[i], scores(confusions[i]));
   row("macro mean", summary.macro_mean);
@@ -80,22 +87,26 @@ void evaluate(const EvaluateArguments& arguments) {
     TerminalProgress progress(arguments.quiet);
     std::optional<PointCloud> truth;
     if (!arguments.truth.empty()) truth = read_cloud(arguments.truth, progress).cloud;
-    for (const std::string& path : arguments.predictions) confusions.push_back(compare_file(path, truth, progress));
+    for (const std::string& path : arguments.predictions)
+      confusions.push_back(compare_file(path, truth, progress));
   }
   const Summary summary = summarize(confusions);
-  if (arguments.json)
-    print_json_evaluation(arguments, confusions, summary);
-  else
-    print_evaluation(arguments, confusions, summary);
+  if (arguments.json) print_json_evaluation(arguments, confusions, summary);
+  else print_evaluation(arguments, confusions, summary);
 }
 
 }  // namespace
 
 void add_evaluate(CLI::App& app, Action& action) {
-  CLI::App* const command = app.add_subcommand("evaluate", "Measure labels against the truth: precision, recall, F1, MCC, IoU");
+  CLI::App* const command =
+      app.add_subcommand("evaluate", "Measure labels against the truth: precision, recall, F1, MCC, IoU");
   const auto arguments = std::make_shared<EvaluateArguments>();
-  command->add_option("PREDICTION", arguments->predictions, "Labelled clouds: attribute feature, and truth or truth_feature")->required();
-  command->add_option("--truth", arguments->truth, "Take truth (or truth_feature) from this file instead")->type_name("FILE");
+  command
+      ->add_option("PREDICTION", arguments->predictions,
+                   "Labelled clouds: attribute feature, and truth or truth_feature")
+      ->required();
+  command->add_option("--truth", arguments->truth, "Take truth (or truth_feature) from this file instead")
+      ->type_name("FILE");
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the table");
   command->add_flag("--quiet", arguments->quiet, "No progress");

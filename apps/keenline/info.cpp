@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "keenline/errors.h"
 #include "keenline/io/read.h"
+
+#include "commands.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -42,7 +43,8 @@ Box bounding_box(const PointCloud& cloud) {
 }
 
 std::string type_words(const Column& column) {
-  return column.is_list() ? fmt::format("list of {}", name_of(column.type())) : std::string(name_of(column.type()));
+  return column.is_list() ? fmt::format("list of {}", name_of(column.type()))
+                          : std::string(name_of(column.type()));
 }
 
 nlohmann::json json_columns(const std::vector<Column>& columns) {
@@ -63,7 +65,9 @@ void print_json_info(const InfoArguments& arguments, const Reading& reading) {
                         {"encoding", reading.encoding},
                         {"points", cloud.size()},
                         {"finite_points", finite},
-                        {"coordinate_types", {name_of(cloud.position_types[0]), name_of(cloud.position_types[1]), name_of(cloud.position_types[2])}},
+                        {"coordinate_types",
+                         {name_of(cloud.position_types[0]), name_of(cloud.position_types[1]),
+                          name_of(cloud.position_types[2])}},
                         {"attributes", json_columns(cloud.attributes)},
                         {"tables", tables},
                         {"comments", cloud.comments},
@@ -78,22 +82,26 @@ void print_json_info(const InfoArguments& arguments, const Reading& reading) {
 void print_info(const InfoArguments& arguments, const Reading& reading) {
   const PointCloud& cloud = reading.cloud;
   const std::size_t finite = count_finite(cloud);
-  std::string text = fmt::format("{}: {}, {}\n", escaped(arguments.file, 4096), reading.format, escaped(reading.encoding));
+  std::string text =
+      fmt::format("{}: {}, {}\n", escaped(arguments.file, 4096), reading.format, escaped(reading.encoding));
   text += fmt::format("  {} points", grouped(cloud.size()));
   if (finite != cloud.size()) text += fmt::format(", {} of them finite", grouped(finite));
-  text += fmt::format("; coordinates {}, {}, {}\n", name_of(cloud.position_types[0]), name_of(cloud.position_types[1]),
-                      name_of(cloud.position_types[2]));
+  text += fmt::format("; coordinates {}, {}, {}\n", name_of(cloud.position_types[0]),
+                      name_of(cloud.position_types[1]), name_of(cloud.position_types[2]));
   if (finite > 0) {
     const Box box = bounding_box(cloud);
-    text += fmt::format("  from ({}, {}, {})\n    to ({}, {}, {})\n", box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]);
+    text += fmt::format("  from ({}, {}, {})\n    to ({}, {}, {})\n", box.low[0], box.low[1], box.low[2],
+                        box.high[0], box.high[1], box.high[2]);
   }
   for (const Column& column : cloud.attributes)
     text += fmt::format("  attribute {} ({})\n", escaped(column.name(), 100), type_words(column));
   for (const Table& table : cloud.tables) {
     text += fmt::format("  table {}: {} rows\n", escaped(table.name, 100), grouped(table.rows));
-    for (const Column& column : table.columns) text += fmt::format("    {} ({})\n", escaped(column.name(), 100), type_words(column));
+    for (const Column& column : table.columns)
+      text += fmt::format("    {} ({})\n", escaped(column.name(), 100), type_words(column));
   }
-  for (const std::string& comment : cloud.comments) text += fmt::format("  comment {}\n", escaped(comment, 200));
+  for (const std::string& comment : cloud.comments)
+    text += fmt::format("  comment {}\n", escaped(comment, 200));
   print(text);
 }
 

@@ -5,8 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "commands.h"
 #include "keenline/errors.h"
+
+#include "commands.h"
 #include "terminal.h"
 
 namespace {
@@ -44,7 +45,8 @@ int run(int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::RequiredError& e) {
     if (app.get_subcommands().empty() && argc > 1)
-      return fail(wrong_usage, "found " + keenline::quoted(argv[1]) + ", expected a command (see keenline --help)");
+      return fail(wrong_usage,
+                  "found " + keenline::quoted(argv[1]) + ", expected a command (see keenline --help)");
     return fail(wrong_usage, keenline::escaped(e.what(), 4096) + " (see keenline --help)");
   } catch (const CLI::ParseError& e) {
     return fail(wrong_usage, keenline::escaped(e.what(), 4096) + " (see keenline --help)");

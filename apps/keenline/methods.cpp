@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "keenline/detect/registry.h"
+
+#include "commands.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -32,7 +33,8 @@ nlohmann::json json_option(const OptionInfo& option) {
                         {"maximum", option.maximum},
                         {"unit", option.unit},
                         {"automatic", option.automatic}};
-  object["default"] = option.default_value ? nlohmann::json(*option.default_value) : nlohmann::json(option.automatic);
+  object["default"] =
+      option.default_value ? nlohmann::json(*option.default_value) : nlohmann::json(option.automatic);
   return object;
 }
 
@@ -53,12 +55,14 @@ void list_as_json() {
 void list_as_text() {
   std::string text;
   for (const Method& method : methods()) {
-    text += fmt::format("{}  {}\n    paper: {}\n    input: {}\n", method.name, method.summary, method.paper, word_for(method.input));
+    text += fmt::format("{}  {}\n    paper: {}\n    input: {}\n", method.name, method.summary, method.paper,
+                        word_for(method.input));
     for (const OptionInfo& option : method.options) {
       text += fmt::format("    --{:<13} {}", option.name, option.summary);
       if (option.type != OptionInfo::Type::Flag)
-        text += fmt::format("\n    {:<15} {}; default {}", "", range_of(option),
-                            option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic));
+        text += fmt::format(
+            "\n    {:<15} {}; default {}", "", range_of(option),
+            option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic));
       text += '\n';
     }
   }

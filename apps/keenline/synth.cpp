@@ -1,3 +1,5 @@
+#include "keenline/synth/synth.h"
+
 #include <array>
 #include <memory>
 #include <optional>
@@ -7,11 +9,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "keenline/errors.h"
 #include "keenline/io/text.h"
 #include "keenline/io/write.h"
-#include "keenline/synth/synth.h"
+
+#include "commands.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -32,13 +34,15 @@ struct SamplingName {
   std::string_view name;
   Sampling sampling;
 };
-constexpr std::array sampling_names{SamplingName{"random", Sampling::Random}, SamplingName{"grid", Sampling::Grid},
-                                    SamplingName{"mesh", Sampling::Mesh}, SamplingName{"scan", Sampling::Scan}};
+constexpr std::array sampling_names{
+    SamplingName{"random", Sampling::Random}, SamplingName{"grid", Sampling::Grid},
+    SamplingName{"mesh", Sampling::Mesh}, SamplingName{"scan", Sampling::Scan}};
 
 Sampling parse_sampling(std::string_view text) {
   for (const SamplingName& entry : sampling_names)
     if (entry.name == text) return entry.sampling;
-  throw InvalidArgument(fmt::format("--sampling: found {}, expected random, grid, mesh or scan", quoted(text)));
+  throw InvalidArgument(
+      fmt::format("--sampling: found {}, expected random, grid, mesh or scan", quoted(text)));
 }
 
 /// "0.05", "0.05h" (of the point spacing), "0.05bbox" (of the bounding box's diagonal).
@@ -52,8 +56,10 @@ Noise parse_noise(std::string_view text) {
     number.remove_suffix(1);
   }
   if (parse_number(number, noise.amount) != Parsed::Ok || !(noise.amount >= 0) || noise.amount > 1e6)
-    throw InvalidArgument(fmt::format(
-        "--noise: found {}, expected a number >= 0 with unit h (point spacings) or bbox (bounding-box diagonals)", quoted(text)));
+    throw InvalidArgument(
+        fmt::format("--noise: found {}, expected a number >= 0 with unit h (point spacings) or bbox "
+                    "(bounding-box diagonals)",
+                    quoted(text)));
   return noise;
 }
 
@@ -85,41 +91,59 @@ void synth(const CLI::App& command, SynthArguments& arguments) {
                 {"corners", result.corners.size()},
                 {"peaks", result.peaks.size()}});
   else if (!arguments.quiet)
-    print(fmt::format("{}: {} points, spacing {:.6g}, {} true lines, {} corners, {} peaks; in {}\n", options.shape,
-                      grouped(result.cloud.size()), result.spacing, result.curves.size(), result.corners.size(), result.peaks.size(),
-                      escaped(arguments.output, 4096)));
+    print(fmt::format("{}: {} points, spacing {:.6g}, {} true lines, {} corners, {} peaks; in {}\n",
+                      options.shape, grouped(result.cloud.size()), result.spacing, result.curves.size(),
+                      result.corners.size(), result.peaks.size(), escaped(arguments.output, 4096)));
 }
 
 std::string shape_list() {
   std::string text = "Shapes:\n";
-  for (const SynthShape& shape : synth_shapes()) text += fmt::format("  {:<14} {}\n", shape.name, shape.summary);
+  for (const SynthShape& shape : synth_shapes())
+    text += fmt::format("  {:<14} {}\n", shape.name, shape.summary);
   return text;
 }
 
 }  // namespace
 
 void add_synth(CLI::App& app, Action& action) {
-  CLI::App* const command = app.add_subcommand("synth", "Make a point cloud of a shape whose sharp features are known exactly");
+  CLI::App* const command =
+      app.add_subcommand("synth", "Make a point cloud of a shape whose sharp features are known exactly");
   const auto arguments = std::make_shared<SynthArguments>();
   command->add_option("SHAPE", arguments->options.shape, "One of the shapes below")->required();
-  command->add_option("-o,--output", arguments->output, "Result: .ply (binary) or .csv")->required()->type_name("OUT");
-  command->add_option("--points", arguments->options.points, "Points wanted")->capture_default_str()->type_name("N");
-  command->add_option("--sampling", arguments->sampling, "random (uniform by area), grid, mesh (also exactly on edges) or scan")
+  command->add_option("-o,--output", arguments->output, "Result: .ply (binary) or .csv")
+      ->required()
+      ->type_name("OUT");
+  command->add_option("--points", arguments->options.points, "Points wanted")
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--sampling", arguments->sampling,
+                   "random (uniform by area), grid, mesh (also exactly on edges) or scan")
       ->capture_default_str()
       ->type_name("NAME");
-  command->add_option("--noise", arguments->noise, "Standard deviation in point spacings (h) or bounding-box diagonals (bbox)")
+  command
+      ->add_option("--noise", arguments->noise,
+                   "Standard deviation in point spacings (h) or bounding-box diagonals (bbox)")
       ->capture_default_str()
       ->type_name("F[h|bbox]");
-  command->add_option("--seed", arguments->options.seed, "Same seed, same points")->capture_default_str()->type_name("S");
-  command->add_option("--angle", arguments->angle_deg, "Dihedral angle of the crease, opening of the cone, in degrees")->type_name("DEG");
-  command->add_option("--band", arguments->options.feature_band, "truth_feature reaches so many spacings from a sharp feature")
+  command->add_option("--seed", arguments->options.seed, "Same seed, same points")
+      ->capture_default_str()
+      ->type_name("S");
+  command
+      ->add_option("--angle", arguments->angle_deg,
+                   "Dihedral angle of the crease, opening of the cone, in degrees")
+      ->type_name("DEG");
+  command
+      ->add_option("--band", arguments->options.feature_band,
+                   "truth_feature reaches so many spacings from a sharp feature")
       ->capture_default_str()
       ->type_name("F");
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
   command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");
   command->footer(shape_list());
-  command->callback([&action, command, arguments] { action = [command, arguments] { synth(*command, *arguments); }; });
+  command->callback(
+      [&action, command, arguments] { action = [command, arguments] { synth(*command, *arguments); }; });
 }
 
 }  // namespace keenline::cli

@@ -1,8 +1,5 @@
 #include "terminal.h"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -10,6 +7,8 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <signal.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,8 +32,10 @@ extern "C" void handle_interruption(int signal) {
 
 extern "C" void handle_vanished_input(int /*signal*/) {
   remove_unfinished_output();
-  constexpr std::string_view message = "keenline: the input shrank or could no longer be read while it was being read\n";
-  if (::write(STDERR_FILENO, message.data(), message.size()) < 0) ::_exit(1);  // nobody to tell; same exit either way
+  constexpr std::string_view message =
+      "keenline: the input shrank or could no longer be read while it was being read\n";
+  if (::write(STDERR_FILENO, message.data(), message.size()) < 0)
+    ::_exit(1);  // nobody to tell; same exit either way
   ::_exit(1);
 }
 
@@ -42,7 +43,8 @@ void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
   ::sigemptyset(&action.sa_mask);
-  if (::sigaction(signal, &action, nullptr) != 0) throw Error("cannot handle signals: " + system_message(errno));
+  if (::sigaction(signal, &action, nullptr) != 0)
+    throw Error("cannot handle signals: " + system_message(errno));
 }
 
 std::int64_t now_ms() {
@@ -107,7 +109,8 @@ struct ThreadLimit::Control {
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads < 0 || threads > 1024)
-    throw InvalidArgument(fmt::format("--threads: found {}, expected 1 to 1024 (or 0 for all there are)", threads));
+    throw InvalidArgument(
+        fmt::format("--threads: found {}, expected 1 to 1024 (or 0 for all there are)", threads));
   if (threads == 0) return;
   control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
 }
@@ -115,11 +118,13 @@ ThreadLimit::ThreadLimit(int threads) {
 ThreadLimit::~ThreadLimit() = default;
 
 void print_notes(std::string_view file, const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "keenline: note: {}: {}\n", escaped(file, 4096), escaped(note, 4096));
+  for (const std::string& note : notes)
+    fmt::print(stderr, "keenline: note: {}: {}\n", escaped(file, 4096), escaped(note, 4096));
 }
 
 void print(std::string_view text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!written) throw OutputError("standard output", "cannot be written: " + system_message(errno));
 }
 

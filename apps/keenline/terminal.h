@@ -14,9 +14,9 @@
 
 namespace keenline::cli {
 
-/// From now on SIGINT, SIGTERM and SIGHUP ask the work to stop (a second one ends the program at once), a file that
-/// shrinks while it is read ends it with exit code 1, and a file size limit or a closed pipe is a failed write.
-/// Temporary output files are removed in every case.
+/// From now on SIGINT, SIGTERM and SIGHUP ask the work to stop (a second one ends the program at once), a
+/// file that shrinks while it is read ends it with exit code 1, and a file size limit or a closed pipe is a
+/// failed write. Temporary output files are removed in every case.
 void install_signal_handlers();
 
 /// The signal that asked the work to stop; 0 when none did.

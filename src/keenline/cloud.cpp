@@ -34,7 +34,11 @@ Column::Column(std::string name, ScalarType type, std::size_t rows)
 
 Column::Column(std::string name, ScalarType type, ScalarType count_type, std::vector<std::uint64_t> offsets,
                std::vector<std::byte> bytes)
-    : name_(std::move(name)), type_(type), count_type_(count_type), bytes_(std::move(bytes)), offsets_(std::move(offsets)) {
+    : name_(std::move(name)),
+      type_(type),
+      count_type_(count_type),
+      bytes_(std::move(bytes)),
+      offsets_(std::move(offsets)) {
   if (offsets_.empty() || offsets_.front() != 0 || !std::is_sorted(offsets_.begin(), offsets_.end()) ||
       offsets_.back() * size_of(type_) != bytes_.size())
     throw InvalidArgument(fmt::format("column {}: list offsets do not match its values", quoted(name_)));
@@ -48,20 +52,19 @@ double Column::value(std::size_t i) const {
 }
 
 const Column* PointCloud::attribute(std::string_view name) const {
-  const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const Column& c) { return c.name() == name; });
+  const auto found =
+      std::find_if(attributes.begin(), attributes.end(), [&](const Column& c) { return c.name() == name; });
   return found == attributes.end() ? nullptr : &*found;
 }
 
 void PointCloud::set_attribute(Column column) {
   if (column.rows() != size())
-    throw InvalidArgument(
-        fmt::format("attribute {} has {} rows, the cloud has {} points", quoted(column.name()), column.rows(), size()));
-  const auto found =
-      std::find_if(attributes.begin(), attributes.end(), [&](const Column& c) { return c.name() == column.name(); });
-  if (found == attributes.end())
-    attributes.push_back(std::move(column));
-  else
-    *found = std::move(column);
+    throw InvalidArgument(fmt::format("attribute {} has {} rows, the cloud has {} points",
+                                      quoted(column.name()), column.rows(), size()));
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [&](const Column& c) { return c.name() == column.name(); });
+  if (found == attributes.end()) attributes.push_back(std::move(column));
+  else *found = std::move(column);
 }
 
 std::size_t count_finite(const PointCloud& cloud) {

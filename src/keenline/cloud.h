@@ -16,7 +16,18 @@ namespace keenline {
 using Point = std::array<double, 3>;
 
 /// How one number is stored in a file and in a column.
-enum class ScalarType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
+enum class ScalarType : std::uint8_t {
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float32,
+  Float64
+};
 
 [[nodiscard]] std::size_t size_of(ScalarType type);
 /// "int8" … "float64".
@@ -50,7 +61,8 @@ class Column {
   /// Lists only: rows() + 1 positions into the values.
   [[nodiscard]] std::span<const std::uint64_t> offsets() const { return offsets_; }
 
-  /// Value number `i` (of a list column: of all lists strung together) as a double; 64-bit integers may round.
+  /// Value number `i` (of a list column: of all lists strung together) as a double; 64-bit integers may
+  /// round.
   [[nodiscard]] double value(std::size_t i) const;
 
   /// The values as they are stored. \pre scalar_type_of<T>() == type()
@@ -84,8 +96,8 @@ struct PointCloud {
   std::vector<Point> positions;
   /// How each coordinate was stored in the file, and will be stored in an output.
   std::array<ScalarType, 3> position_types{ScalarType::Float64, ScalarType::Float64, ScalarType::Float64};
-  std::vector<Column> attributes;     ///< one row per point; names are unique
-  std::vector<Table> tables;          ///< what else the file holds; carried through to outputs that can hold it
+  std::vector<Column> attributes;  ///< one row per point; names are unique
+  std::vector<Table> tables;       ///< what else the file holds; carried through to outputs that can hold it
   std::vector<std::string> comments;  ///< free text lines of the file; carried through
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
@@ -104,11 +116,13 @@ struct PointCloud {
 /// Points are numbered by 32-bit indices everywhere.
 inline constexpr std::uint64_t max_points = 0xFFFF'FFFEU;
 
-/// Calls `function` with a value-initialised T of the C++ type that `type` stores: visit_type(t, [&](auto zero) {…}).
+/// Calls `function` with a value-initialised T of the C++ type that `type` stores: visit_type(t, [&](auto
+/// zero) {…}).
 template <typename Function>
 decltype(auto) visit_type(ScalarType type, Function&& function);
 
-// --- templates -------------------------------------------------------------------------------------------------
+// --- templates
+// -------------------------------------------------------------------------------------------------
 
 template <typename T>
 consteval ScalarType scalar_type_of() {

@@ -59,8 +59,8 @@ class Cancelled : public Error {
   Cancelled() : Error("cancelled") {}
 };
 
-/// `text` fit for a one-line message: control and non-ASCII-printable bytes that are not valid UTF-8 become \xNN,
-/// anything past `longest` bytes becomes "...".
+/// `text` fit for a one-line message: control and non-ASCII-printable bytes that are not valid UTF-8 become
+/// \xNN, anything past `longest` bytes becomes "...".
 [[nodiscard]] std::string escaped(std::string_view text, std::size_t longest = 60);
 
 /// escaped() between single quotes.

@@ -15,8 +15,8 @@ enum class Kind : std::uint8_t {
   Edge = 2,
   Corner = 3,
   Peak = 4,
-  Border = 5,        ///< rim of an open surface: not a sharp feature
-  Undecided = 255,   ///< not finite, or too few neighbours to tell
+  Border = 5,       ///< rim of an open surface: not a sharp feature
+  Undecided = 255,  ///< not finite, or too few neighbours to tell
 };
 
 inline constexpr std::array all_kinds{Kind::Flat, Kind::Curved, Kind::Edge,     Kind::Corner,

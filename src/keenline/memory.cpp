@@ -1,14 +1,13 @@
 #include "keenline/memory.h"
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fcntl.h>
 #include <limits>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -88,7 +87,8 @@ void require_memory(std::uint64_t bytes, std::string_view what) {
   if (bytes <= available) return;
   constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
   throw OutOfMemory(fmt::format("{} needs {:.1f} GiB of memory, {:.1f} GiB are available", what,
-                                static_cast<double>(bytes) / gibibyte, static_cast<double>(available) / gibibyte));
+                                static_cast<double>(bytes) / gibibyte,
+                                static_cast<double>(available) / gibibyte));
 }
 
 }  // namespace keenline

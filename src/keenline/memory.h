@@ -5,8 +5,8 @@
 
 namespace keenline {
 
-/// Bytes that this process can still be given: the least of free physical memory, what the control group allows and
-/// what the address-space limit leaves. The largest value when the system does not tell.
+/// Bytes that this process can still be given: the least of free physical memory, what the control group
+/// allows and what the address-space limit leaves. The largest value when the system does not tell.
 [[nodiscard]] std::uint64_t available_memory();
 
 /// Largest resident size of this process so far, in bytes.

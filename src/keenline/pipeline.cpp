@@ -1,10 +1,9 @@
 #include "keenline/pipeline.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <chrono>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -43,7 +42,8 @@ void require_different_files(const std::string& input, const std::string& output
 void require_writable_folder(const std::string& output) {
   const std::size_t slash = output.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : output.substr(0, slash + 1);
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw OutputError(output, "cannot be written: " + system_message(errno));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(output, "cannot be written: " + system_message(errno));
 }
 
 }  // namespace
@@ -60,7 +60,8 @@ DetectReport run_detect(const DetectJob& job, Progress& progress) {
   StopWatch stage;
   Reading reading = read_cloud(job.input, progress);
   report.times.read_s = stage.lap_s();
-  const Neighborhoods neighborhoods = find_neighborhoods(reading.cloud, method.reach(report.options), progress);
+  const Neighborhoods neighborhoods =
+      find_neighborhoods(reading.cloud, method.reach(report.options), progress);
   report.times.neighborhoods_s = stage.lap_s();
   report.labels = method.detect(reading.cloud, neighborhoods, report.options, progress);
   report.times.detect_s = stage.lap_s();
@@ -74,7 +75,8 @@ DetectReport run_detect(const DetectJob& job, Progress& progress) {
   report.points = reading.cloud.size();
   report.finite_points = count_finite(reading.cloud);
   report.notes = std::move(reading.notes);
-  for (const std::string& name : replaced) report.notes.push_back(fmt::format("the input's attribute {} is replaced", quoted(name)));
+  for (const std::string& name : replaced)
+    report.notes.push_back(fmt::format("the input's attribute {} is replaced", quoted(name)));
   report.notes.insert(report.notes.end(), writing_notes.begin(), writing_notes.end());
   return report;
 }

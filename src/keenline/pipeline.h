@@ -14,9 +14,9 @@ namespace keenline {
 /// From a file to a file: read, neighborhoods, detect, write.
 struct DetectJob {
   std::string input;
-  std::string output;        ///< .ply or .csv
+  std::string output;  ///< .ply or .csv
   std::string method = "gauss";
-  OptionValues options;      ///< what differs from the method's defaults
+  OptionValues options;  ///< what differs from the method's defaults
 };
 
 struct StageTimes {
@@ -28,21 +28,23 @@ struct StageTimes {
 };
 
 struct DetectReport {
-  std::string format;              ///< of the input
+  std::string format;  ///< of the input
   std::string encoding;
   std::size_t points = 0;
   std::size_t finite_points = 0;
-  OptionValues options;            ///< as used: defaults filled in, and what was chosen from the data
+  OptionValues options;  ///< as used: defaults filled in, and what was chosen from the data
   FeatureLabels labels;
   std::vector<std::string> notes;  ///< what a user should know, one line each
   StageTimes times;
 };
 
-/// \throw InvalidArgument, InputError, OutOfMemory, std::bad_alloc, OutputError or Cancelled; nothing is then left at the output.
+/// \throw InvalidArgument, InputError, OutOfMemory, std::bad_alloc, OutputError or Cancelled; nothing is then
+/// left at the output.
 [[nodiscard]] DetectReport run_detect(const DetectJob& job, Progress& progress = no_progress());
 
-/// Adds the attributes feature (0/1), kind, score and, where the method counts them, clusters; replaces those of the
-/// same names and returns the names it replaced. \throw InvalidArgument unless labels.size() == cloud.size().
+/// Adds the attributes feature (0/1), kind, score and, where the method counts them, clusters; replaces those
+/// of the same names and returns the names it replaced. \throw InvalidArgument unless labels.size() ==
+/// cloud.size().
 std::vector<std::string> add_labels(PointCloud& cloud, const FeatureLabels& labels);
 
 }  // namespace keenline

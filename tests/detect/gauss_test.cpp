@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
 #include "keenline/cloud.h"
@@ -17,14 +17,15 @@
 #include "keenline/io/read.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/synth/synth.h"
+
 #include "support/expect_error.h"
 #include "support/textbook_gauss.h"
 
 namespace keenline {
 namespace {
 
-SynthCloud shape(const std::string& name, std::uint64_t points, double noise_h = 0, Sampling sampling = Sampling::Random,
-                 std::uint64_t seed = 7) {
+SynthCloud shape(const std::string& name, std::uint64_t points, double noise_h = 0,
+                 Sampling sampling = Sampling::Random, std::uint64_t seed = 7) {
   SynthOptions options;
   options.shape = name;
   options.points = points;
@@ -38,16 +39,18 @@ FeatureLabels detect(const PointCloud& cloud, const GaussOptions& options = {}) 
   return detect_gauss(cloud, find_neighborhoods(cloud, options.neighbors), options);
 }
 
-// --- one point with a known answer -------------------------------------------------------------------------------
+// --- one point with a known answer
+// -------------------------------------------------------------------------------
 
-/// Point 0 at the origin and 16 neighbours around it at the given directions, all at different distances below 2.
-/// Far points complete the neighbourhoods of the others.
+/// Point 0 at the origin and 16 neighbours around it at the given directions, all at different distances
+/// below 2. Far points complete the neighbourhoods of the others.
 PointCloud star(const std::vector<Point>& directions) {
   PointCloud cloud;
   cloud.positions.push_back({0, 0, 0});
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const double length = 1 + 0.01 * static_cast<double>(i);
-    cloud.positions.push_back({directions[i][0] * length, directions[i][1] * length, directions[i][2] * length});
+    cloud.positions.push_back(
+        {directions[i][0] * length, directions[i][1] * length, directions[i][2] * length});
   }
   return cloud;
 }
@@ -124,7 +127,8 @@ TEST(Gauss, TooFewNeighborsAreUndecided) {
   std::mt19937 generator(1);
   for (const std::size_t size : {0U, 1U, 15U, 16U, 17U}) {
     PointCloud cloud;
-    for (std::size_t i = 0; i < size; ++i) cloud.positions.push_back({double(generator()), double(generator()), double(generator())});
+    for (std::size_t i = 0; i < size; ++i)
+      cloud.positions.push_back({double(generator()), double(generator()), double(generator())});
     cloud.positions.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
     const FeatureLabels labels = detect(cloud);
     ASSERT_EQ(labels.size(), size + 1);
@@ -136,7 +140,8 @@ TEST(Gauss, TooFewNeighborsAreUndecided) {
   for (const Kind kind : detect(same).kind) EXPECT_EQ(kind, Kind::Undecided);
 }
 
-// --- against the slow, obvious way -------------------------------------------------------------------------------
+// --- against the slow, obvious way
+// -------------------------------------------------------------------------------
 
 /// Share of points with another kind or number of clusters than the textbook's.
 double disagreement(const PointCloud& cloud, const GaussOptions& options, std::size_t step = 1) {
@@ -146,8 +151,8 @@ double disagreement(const PointCloud& cloud, const GaussOptions& options, std::s
   std::size_t compared = 0;
   std::size_t different = 0;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
-    const test::TextbookLabel expected =
-        test::textbook_gauss(cloud, i, neighborhoods.of(i), *options.sigma_deg, options.max_clusters, options.min_sine);
+    const test::TextbookLabel expected = test::textbook_gauss(
+        cloud, i, neighborhoods.of(i), *options.sigma_deg, options.max_clusters, options.min_sine);
     ++compared;
     if (labels.kind[i] != expected.kind || labels.clusters[i] != expected.clusters) ++different;
   }
@@ -177,19 +182,24 @@ TEST_P(GaussAgainstTextbook, LabelsAreTheSame) {
 
 /// Test names that say what is tested.
 std::string name_of_case(const char* shape, double noise_h, double number) {
-  std::string name = std::string(shape) + "_noise" + std::to_string(static_cast<int>(std::lround(noise_h * 1000))) + "_" +
+  std::string name = std::string(shape) + "_noise" +
+                     std::to_string(static_cast<int>(std::lround(noise_h * 1000))) + "_" +
                      std::to_string(std::lround(number * 1000));
   return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, GaussAgainstTextbook,
-                         testing::Values(Comparison{"cube", 0, 20}, Comparison{"cube", 0, 7}, Comparison{"icosahedron", 0, 20},
-                                         Comparison{"cube", 0.05, 20}, Comparison{"cube", 0.05, 10}, Comparison{"cone", 0, 20},
+                         testing::Values(Comparison{"cube", 0, 20}, Comparison{"cube", 0, 7},
+                                         Comparison{"icosahedron", 0, 20}, Comparison{"cube", 0.05, 20},
+                                         Comparison{"cube", 0.05, 10}, Comparison{"cone", 0, 20},
                                          Comparison{"fandisk", 0, 20}, Comparison{"fandisk", 0.1, 25}),
-                         [](const auto& test) { return name_of_case(test.param.shape, test.param.noise_h, test.param.sigma_deg); });
+                         [](const auto& test) {
+                           return name_of_case(test.param.shape, test.param.noise_h, test.param.sigma_deg);
+                         });
 
 TEST(Gauss, RealFandiskEqualsTheTextbook) {
-  const std::filesystem::path path = std::filesystem::path(KEENLINE_SOURCE_DIR) / "../shared/data/models/fandisk.obj";
+  const std::filesystem::path path =
+      std::filesystem::path(KEENLINE_SOURCE_DIR) / "../shared/data/models/fandisk.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no benchmark data beside the checkout";
   const PointCloud cloud = read_cloud(path.string()).cloud;
   GaussOptions options;
@@ -197,7 +207,8 @@ TEST(Gauss, RealFandiskEqualsTheTextbook) {
   EXPECT_LE(disagreement(cloud, options, cloud.size() / points_to_compare + 1), 0.001);
 }
 
-// --- what the spec measured: recall within half a spacing of an edge, false positives beyond 2.5 ------------------
+// --- what the spec measured: recall within half a spacing of an edge, false positives beyond 2.5
+// ------------------
 
 struct Rates {
   double recall;
@@ -228,8 +239,9 @@ struct Expected {
 };
 class GaussOnAnalyticShapes : public testing::TestWithParam<Expected> {};
 
-/// The specification gives one figure each, from one run; here it is the mean over six clouds, and a figure is met when
-/// it lies within what one cloud's figure scatters (its standard deviation is 0.013 for the cube, 0.027 for the cylinder).
+/// The specification gives one figure each, from one run; here it is the mean over six clouds, and a figure
+/// is met when it lies within what one cloud's figure scatters (its standard deviation is 0.013 for the cube,
+/// 0.027 for the cylinder).
 TEST_P(GaussOnAnalyticShapes, MeetsTheFiguresOfTheSpecification) {
   const Expected& e = GetParam();
   GaussOptions options;
@@ -238,7 +250,8 @@ TEST_P(GaussOnAnalyticShapes, MeetsTheFiguresOfTheSpecification) {
   Rates mean{0, 0};
   constexpr int clouds = 6;
   for (int seed = 1; seed <= clouds; ++seed) {
-    const SynthCloud truth = shape(e.shape, 6000, e.noise_h, Sampling::Random, static_cast<std::uint64_t>(seed));
+    const SynthCloud truth =
+        shape(e.shape, 6000, e.noise_h, Sampling::Random, static_cast<std::uint64_t>(seed));
     const Rates found = rates(truth, detect(truth.cloud, options));
     mean.recall += found.recall / clouds;
     mean.false_positive += found.false_positive / clouds;
@@ -248,16 +261,21 @@ TEST_P(GaussOnAnalyticShapes, MeetsTheFiguresOfTheSpecification) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Specification, GaussOnAnalyticShapes,
-                         testing::Values(Expected{"cube", 0, 1e-6, 16, 0.92, 0.013, 0}, Expected{"icosahedron", 0, 1e-6, 16, 0.93, 0, 0},
-                                         Expected{"cylinder", 0, 1e-6, 16, 0.96, 0.054, 0}, Expected{"sphere", 0, 1e-6, 16, 0, 0, 0},
+                         testing::Values(Expected{"cube", 0, 1e-6, 16, 0.92, 0.013, 0},
+                                         Expected{"icosahedron", 0, 1e-6, 16, 0.93, 0, 0},
+                                         Expected{"cylinder", 0, 1e-6, 16, 0.96, 0.054, 0},
+                                         Expected{"sphere", 0, 1e-6, 16, 0, 0, 0},
                                          Expected{"cube", 0.05, 1e-6, 16, 0.92, 0.013, 0.056},
                                          Expected{"cube", 0.05, 0.3, 16, 0.93, 0.026, 0.023},
-                                         Expected{"cube", 0.05, 0.3, 24, 0.92, 0, 0.005}, Expected{"sphere", 0.05, 0.3, 16, 0, 0, 0.041}),
+                                         Expected{"cube", 0.05, 0.3, 24, 0.92, 0, 0.005},
+                                         Expected{"sphere", 0.05, 0.3, 16, 0, 0, 0.041}),
                          [](const auto& test) {
-                           return name_of_case(test.param.shape, test.param.noise_h, test.param.min_sine + test.param.neighbors);
+                           return name_of_case(test.param.shape, test.param.noise_h,
+                                               test.param.min_sine + test.param.neighbors);
                          });
 
-// --- invariances -------------------------------------------------------------------------------------------------
+// --- invariances
+// -------------------------------------------------------------------------------------------------
 
 TEST(Gauss, PointOrderChangesNothing) {
   const PointCloud cloud = shape("cube", 2000, 0.05).cloud;
@@ -336,8 +354,8 @@ TEST(Gauss, ThreadsChangeNothing) {
 }
 
 TEST(Gauss, TheShortcutForFlatPointsChangesNothing) {
-  // A sensitivity below the smallest one of interest switches the shortcut off; the labels at 20 degrees are those of
-  // the textbook either way, so here it is the score that must not depend on it.
+  // A sensitivity below the smallest one of interest switches the shortcut off; the labels at 20 degrees are
+  // those of the textbook either way, so here it is the score that must not depend on it.
   const PointCloud cloud = shape("cube", 1000, 0, Sampling::Grid).cloud;
   GaussOptions usual;
   usual.plain = true;
@@ -354,7 +372,8 @@ TEST(Gauss, ManyNeighborsNeedWiderSums) {
   EXPECT_LE(disagreement(shape("cube", 1200, 0.05).cloud, options, 60), 0.001);
 }
 
-// --- sigma -------------------------------------------------------------------------------------------------------
+// --- sigma
+// -------------------------------------------------------------------------------------------------------
 
 TEST(Gauss, ChosenSigmaFindsTheEdgesOfSharpAndObtuseShapes) {
   for (const char* const name : {"cube", "icosahedron", "cylinder"}) {
@@ -367,7 +386,8 @@ TEST(Gauss, ChosenSigmaFindsTheEdgesOfSharpAndObtuseShapes) {
   }
 }
 
-// --- refusals ----------------------------------------------------------------------------------------------------
+// --- refusals
+// ----------------------------------------------------------------------------------------------------
 
 TEST(Gauss, RefusesOptionsOutOfRange) {
   const PointCloud cloud = shape("cube", 100).cloud;
@@ -385,7 +405,12 @@ TEST(Gauss, RefusesOptionsOutOfRange) {
   refuses([](GaussOptions& o) { o.max_clusters = 1; }, "max-clusters");
   refuses([](GaussOptions& o) { o.min_sine = -0.1; }, "min-sine");
   refuses([](GaussOptions& o) { o.flatness_deg = 91; }, "flatness");
-  refuses([](GaussOptions& o) { o.sigma_deg.reset(); o.plain = true; }, "sigma");
+  refuses(
+      [](GaussOptions& o) {
+        o.sigma_deg.reset();
+        o.plain = true;
+      },
+      "sigma");
   EXPECT_THROW((void)detect_gauss(PointCloud{}, neighborhoods), InvalidArgument);
 }
 

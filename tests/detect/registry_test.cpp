@@ -7,6 +7,7 @@
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighborhoods.h"
+
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -53,7 +54,8 @@ TEST(Registry, RefusesValuesWithTheAllowedRange) {
   };
   for (const char* const text : {"0", "-5", "90.001", "nan", "inf", "abc", "", "1e400", "20deg"})
     refuses("sigma", text, "more than 0, up to 90 degrees, or auto");
-  for (const char* const text : {"2", "256", "16.5", "auto", "0x10"}) refuses("neighbors", text, "an integer from 3 to 255 points");
+  for (const char* const text : {"2", "256", "16.5", "auto", "0x10"})
+    refuses("neighbors", text, "an integer from 3 to 255 points");
   refuses("min-cluster", "0", "an integer from 1");
   refuses("max-clusters", "1", "an integer from 2 to 255");
   refuses("min-sine", "1.5", "from 0 to 1");
@@ -67,9 +69,17 @@ TEST(Registry, ResolvesDefaultsAndRefusesForeignOptions) {
   EXPECT_EQ(values.at("min-cluster"), std::nullopt);
   EXPECT_EQ(values.at("plain"), 0.0);
   EXPECT_EQ(gauss.reach(values), 16);
-  expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"radius", 1.0}}); }, "--radius", "gauss");
+  expect_error<InvalidArgument>(
+      [&] {
+        (void)resolve_options(gauss, {{"radius", 1.0}});
+      },
+      "--radius", "gauss");
   expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"sigma", 91.0}}); }, "--sigma", "91");
-  expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"neighbors", std::nullopt}}); }, "--neighbors");
+  expect_error<InvalidArgument>(
+      [&] {
+        (void)resolve_options(gauss, {{"neighbors", std::nullopt}});
+      },
+      "--neighbors");
 }
 
 TEST(Registry, ReportsWhatWasChosenFromTheData) {

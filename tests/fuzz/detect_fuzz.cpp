@@ -10,7 +10,8 @@
 #include "keenline/neighborhood/neighborhoods.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // The first byte chooses how coordinates are made: any doubles, or small integers (ties, duplicates, planes).
+  // The first byte chooses how coordinates are made: any doubles, or small integers (ties, duplicates,
+  // planes).
   if (size == 0) return 0;
   const bool any_double = (data[0] & 1U) != 0;
   const std::size_t width = any_double ? sizeof(double) : 1;
@@ -20,10 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t i = 0; i < points; ++i) {
     keenline::Point p{};
     for (double& coordinate : p) {
-      if (any_double)
-        std::memcpy(&coordinate, next, sizeof(double));
-      else
-        coordinate = *next % 7;
+      if (any_double) std::memcpy(&coordinate, next, sizeof(double));
+      else coordinate = *next % 7;
       next += width;
     }
     cloud.positions.push_back(p);

@@ -1,4 +1,5 @@
-// Any bytes either make a cloud that can be written and read back, or are refused with an InputError; nothing else.
+// Any bytes either make a cloud that can be written and read back, or are refused with an InputError; nothing
+// else.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -38,7 +39,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(std::string_view(e.what()).find('\n') == std::string_view::npos);
     return 0;
   }
-  for (const keenline::Column& column : reading.cloud.attributes) require(column.rows() == reading.cloud.size());
+  for (const keenline::Column& column : reading.cloud.attributes)
+    require(column.rows() == reading.cloud.size());
   keenline::StringSink sink;
   (void)keenline::write_ply(reading.cloud, sink, keenline::no_progress());
   const keenline::Reading back = keenline::read_ply({"back", sink.text}, keenline::no_progress());

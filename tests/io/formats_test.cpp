@@ -6,15 +6,20 @@
 
 #include "keenline/errors.h"
 #include "keenline/io/source.h"
+
 #include "support/expect_error.h"
 
 namespace keenline {
 namespace {
 
-std::string_view format_of(std::string name, std::string_view bytes) { return find_format({std::move(name), bytes}).name; }
+std::string_view format_of(std::string name, std::string_view bytes) {
+  return find_format({std::move(name), bytes}).name;
+}
 
 TEST(Formats, ContentDecidesWhateverTheNameSays) {
-  constexpr std::string_view ply = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  constexpr std::string_view ply =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
   EXPECT_EQ(format_of("a.ply", ply), "ply");
   EXPECT_EQ(format_of("a.xyz", ply), "ply");
   EXPECT_EQ(format_of("a", ply), "ply");
@@ -37,7 +42,11 @@ TEST(Formats, WeakContentDecidesWithoutAKnownExtension) {
 }
 
 TEST(Formats, RefusesWhatNoFormatFits) {
-  test::expect_error<InputError>([] { (void)find_format({"a.jpg", "\xff\xd8\xff\xe0 JFIF"}); }, "a.jpg: byte 0", "'\\xff\\xd8", "ply, pcd, las");
+  test::expect_error<InputError>(
+      [] {
+        (void)find_format({"a.jpg", "\xff\xd8\xff\xe0 JFIF"});
+      },
+      "a.jpg: byte 0", "'\\xff\\xd8", "ply, pcd, las");
   test::expect_error<InputError>([] { (void)find_format({"nothing", ""}); }, "an empty file");
 }
 
@@ -46,7 +55,8 @@ TEST(Formats, NamesAndExtensionsAreUnique) {
   std::set<std::string_view> extensions;
   for (const Format& format : formats()) {
     EXPECT_TRUE(names.insert(format.name).second) << format.name;
-    for (const std::string_view extension : format.extensions) EXPECT_TRUE(extensions.insert(extension).second) << extension;
+    for (const std::string_view extension : format.extensions)
+      EXPECT_TRUE(extensions.insert(extension).second) << extension;
   }
   EXPECT_EQ(formats().size(), 7U);
 }

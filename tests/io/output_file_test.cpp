@@ -1,14 +1,14 @@
 #include "keenline/io/output_file.h"
 
-#include <sys/resource.h>
-#include <sys/stat.h>
-
 #include <csignal>
 #include <filesystem>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -71,7 +71,8 @@ TEST(OutputFile, RefusesTargetsThatCannotBe) {
   std::filesystem::create_symlink("loop", folder.path() / "loop");
   std::filesystem::create_symlink("nowhere", folder.path() / "broken");
   std::filesystem::create_directory(folder.path() / "sub");
-  expect_error<OutputError>([&] { OutputFile file(folder.file("missing/out")); }, "missing/out: cannot be written", "No such file");
+  expect_error<OutputError>([&] { OutputFile file(folder.file("missing/out")); },
+                            "missing/out: cannot be written", "No such file");
   expect_error<OutputError>([&] { OutputFile file(folder.file("sub")); }, "it is a folder");
   expect_error<OutputError>([&] { OutputFile file(folder.file("loop")); }, "symbolic link");
   expect_error<OutputError>([&] { OutputFile file(folder.file("broken")); }, "symbolic link");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,12 +1,12 @@
 #include "keenline/io/source.h"
 
-#include <sys/stat.h>
-
 #include <filesystem>
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -34,7 +34,8 @@ TEST(Source, RefusesWhatIsNoRegularFile) {
   const test::TemporaryFolder folder;
   ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
   std::filesystem::create_symlink("loop", folder.path() / "loop");
-  expect_error<InputError>([&] { MappedFile file(folder.file("nothing")); }, "nothing: cannot be opened", "No such file");
+  expect_error<InputError>([&] { MappedFile file(folder.file("nothing")); }, "nothing: cannot be opened",
+                           "No such file");
   expect_error<InputError>([&] { MappedFile file(folder.path().string()); }, "is a folder");
   expect_error<InputError>([&] { MappedFile file(folder.file("pipe")); }, "is a pipe");
   expect_error<InputError>([&] { MappedFile file(folder.file("loop")); }, "cannot be opened");

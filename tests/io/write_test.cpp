@@ -4,6 +4,7 @@
 
 #include "keenline/errors.h"
 #include "keenline/io/read.h"
+
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -33,7 +34,8 @@ TEST(Write, ExtensionChoosesTheFormatAndNothingIsLost) {
 TEST(Write, RefusesOtherExtensionsBeforeAnythingIsWritten) {
   const test::TemporaryFolder folder;
   for (const char* const name : {"a.xyz", "a", "ply", "a.ply.gz"}) {
-    test::expect_error<InvalidArgument>([&] { write_cloud(folder.file(name), small_cloud()); }, name, ".ply or .csv");
+    test::expect_error<InvalidArgument>([&] { write_cloud(folder.file(name), small_cloud()); }, name,
+                                        ".ply or .csv");
     test::expect_error<InvalidArgument>([&] { require_writable_extension(name); }, name);
   }
   EXPECT_EQ(folder.entries(), 0U);

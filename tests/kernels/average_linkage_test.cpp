@@ -12,8 +12,8 @@ namespace {
 
 using Matrix = std::vector<std::uint32_t>;
 
-/// The definition, step by step: look at every pair of clusters, merge the closest, smallest names first. Means are
-/// compared as exact fractions and computed anew from all pairs of items each time.
+/// The definition, step by step: look at every pair of clusters, merge the closest, smallest names first.
+/// Means are compared as exact fractions and computed anew from all pairs of items each time.
 std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
   std::vector<std::vector<std::uint32_t>> clusters;
   for (std::uint32_t i = 0; i < n; ++i) clusters.push_back({i});
@@ -35,7 +35,8 @@ std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
     auto& first = clusters[best_a];
     auto& second = clusters[best_b];
     merges.push_back({first.front(), second.front(), static_cast<std::uint32_t>(first.size()),
-                      static_cast<std::uint32_t>(second.size()), static_cast<double>(best_sum) / static_cast<double>(best_pairs)});
+                      static_cast<std::uint32_t>(second.size()),
+                      static_cast<double>(best_sum) / static_cast<double>(best_pairs)});
     first.insert(first.end(), second.begin(), second.end());
     clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(best_b));
   }
@@ -63,7 +64,9 @@ Matrix random_matrix(std::size_t n, std::uint32_t levels, unsigned seed) {
   std::mt19937 generator(seed);
   Matrix distances(n * n, 0);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j) distances[i * n + j] = distances[j * n + i] = static_cast<std::uint32_t>(generator() % levels) * (65520 / levels);
+    for (std::size_t j = i + 1; j < n; ++j)
+      distances[i * n + j] = distances[j * n + i] =
+          static_cast<std::uint32_t>(generator() % levels) * (65520 / levels);
   return distances;
 }
 
@@ -77,7 +80,8 @@ TEST(AverageLinkage, ThreeItemsByHand) {
 TEST(AverageLinkage, TiesMergeTheSmallestIndexFirst) {
   // A path 0 - 1 - 2 with equal steps: 0 and 1 first.
   const Matrix distances{0, 10, 30, 10, 0, 10, 30, 10, 0};
-  EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, 3)), (std::vector<Key>{{10.0, 0, 1, 1, 1}, {20.0, 0, 2, 2, 1}}));
+  EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, 3)),
+            (std::vector<Key>{{10.0, 0, 1, 1, 1}, {20.0, 0, 2, 2, 1}}));
 }
 
 TEST(AverageLinkage, EqualsTheDefinitionOnRandomDistances) {
@@ -108,7 +112,8 @@ TEST(AverageLinkage, HoldsTheLargestSums) {
     for (std::size_t j = 0; j < n; ++j)
       if ((i < n / 2) == (j < n / 2)) distances[i * n + j] = 0;
   const auto merges = by_chain<std::uint32_t>(distances, n);
-  const auto highest = std::max_element(merges.begin(), merges.end(), [](const Merge& a, const Merge& b) { return a.height < b.height; });
+  const auto highest = std::max_element(merges.begin(), merges.end(),
+                                        [](const Merge& a, const Merge& b) { return a.height < b.height; });
   EXPECT_EQ(highest->height, 65520);
   EXPECT_EQ(highest->first_size, 256U);
   EXPECT_EQ(highest->second_size, 256U);
@@ -132,7 +137,8 @@ TEST(AverageLinkage, StopsWhenAsked) {
   Matrix distances = random_matrix(50, 65520, 1);
   std::vector<Merge> merges(49);
   LinkageWorkspace workspace;
-  EXPECT_FALSE(average_linkage(distances.data(), 50, workspace, merges.data(), [](const void*) { return true; }));
+  EXPECT_FALSE(
+      average_linkage(distances.data(), 50, workspace, merges.data(), [](const void*) { return true; }));
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 namespace keenline::kernels {
 namespace {
@@ -28,15 +28,16 @@ void expect_decomposition(const Symmetric3& m) {
 TEST(Symmetric3, DecomposesRandomMatrices) {
   std::mt19937 generator(1);
   const auto number = [&] { return static_cast<double>(generator()) / 2147483648.0 - 1; };
-  for (int i = 0; i < 1000; ++i) expect_decomposition({number(), number(), number(), number(), number(), number()});
+  for (int i = 0; i < 1000; ++i)
+    expect_decomposition({number(), number(), number(), number(), number(), number()});
 }
 
 TEST(Symmetric3, DecomposesSpecialMatrices) {
   expect_decomposition({});
   expect_decomposition({1, 0, 0, 1, 0, 1});
   expect_decomposition({3, 0, 0, 1, 0, 2});
-  expect_decomposition({1, 1, 1, 1, 1, 1});                  // rank one
-  expect_decomposition({1, 1e-9, 0, 1, 1e-12, 1});           // nearly all equal
+  expect_decomposition({1, 1, 1, 1, 1, 1});         // rank one
+  expect_decomposition({1, 1e-9, 0, 1, 1e-12, 1});  // nearly all equal
   expect_decomposition({1e100, 1e99, 0, 1e100, 5e99, 3e98});
   expect_decomposition({1e-100, 1e-101, 0, 1e-100, 5e-101, 3e-102});
 }

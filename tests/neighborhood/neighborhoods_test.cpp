@@ -42,7 +42,8 @@ void expect_equals_brute_force(const PointCloud& cloud, int count) {
   ASSERT_EQ(neighborhoods.size(), cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const auto found = neighborhoods.of(i);
-    ASSERT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()), brute_force(cloud, i, static_cast<std::size_t>(count)))
+    ASSERT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()),
+              brute_force(cloud, i, static_cast<std::size_t>(count)))
         << "point " << i;
   }
 }
@@ -51,7 +52,8 @@ PointCloud random_cloud(std::size_t size, unsigned seed) {
   std::mt19937 generator(seed);
   PointCloud cloud;
   const auto coordinate = [&] { return static_cast<double>(generator()) / 4294967296.0; };
-  for (std::size_t i = 0; i < size; ++i) cloud.positions.push_back({coordinate(), coordinate(), coordinate()});
+  for (std::size_t i = 0; i < size; ++i)
+    cloud.positions.push_back({coordinate(), coordinate(), coordinate()});
   return cloud;
 }
 
@@ -116,7 +118,8 @@ TEST(Neighborhoods, DoNotDependOnScaleOrOnOneFarPoint) {
 }
 
 TEST(Neighborhoods, LoseNothingFarFromTheOrigin) {
-  // Millimetres at ten thousand kilometres: neighbouring doubles are 2 nm apart there, neighbouring floats a metre.
+  // Millimetres at ten thousand kilometres: neighbouring doubles are 2 nm apart there, neighbouring floats a
+  // metre.
   PointCloud cloud = random_cloud(300, 7);
   for (Point& p : cloud.positions)
     for (double& c : p) c = std::round(c * 100) * 0.001 + 1e7;

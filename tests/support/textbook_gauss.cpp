@@ -16,14 +16,16 @@ std::vector<int> cluster_sizes(const std::vector<Eigen::Vector3d>& lines, double
   Eigen::MatrixXd mean(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      mean(i, j) = std::acos(std::min(1.0, std::abs(lines[static_cast<std::size_t>(i)].dot(lines[static_cast<std::size_t>(j)]))));
+      mean(i, j) = std::acos(std::min(
+          1.0, std::abs(lines[static_cast<std::size_t>(i)].dot(lines[static_cast<std::size_t>(j)]))));
   std::vector<int> size(lines.size(), 1);  // 0 = merged into another
   for (;;) {
     Eigen::Index a = -1;
     Eigen::Index b = -1;
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = i + 1; j < n; ++j)
-        if (size[static_cast<std::size_t>(i)] > 0 && size[static_cast<std::size_t>(j)] > 0 && (a < 0 || mean(i, j) < mean(a, b))) {
+        if (size[static_cast<std::size_t>(i)] > 0 && size[static_cast<std::size_t>(j)] > 0 &&
+            (a < 0 || mean(i, j) < mean(a, b))) {
           a = i;
           b = j;
         }
@@ -42,8 +44,9 @@ std::vector<int> cluster_sizes(const std::vector<Eigen::Vector3d>& lines, double
 
 }  // namespace
 
-TextbookLabel textbook_gauss(const PointCloud& cloud, std::size_t point, std::span<const std::uint32_t> neighbors,
-                             double sigma_deg, int max_clusters, double min_sine) {
+TextbookLabel textbook_gauss(const PointCloud& cloud, std::size_t point,
+                             std::span<const std::uint32_t> neighbors, double sigma_deg, int max_clusters,
+                             double min_sine) {
   const Eigen::Vector3d p = vector_of(cloud.positions[point]);
   std::vector<Eigen::Vector3d> lines;
   for (std::size_t i = 0; i < neighbors.size(); ++i)
@@ -51,7 +54,8 @@ TextbookLabel textbook_gauss(const PointCloud& cloud, std::size_t point, std::sp
       const Eigen::Vector3d a = vector_of(cloud.positions[neighbors[i]]) - p;
       const Eigen::Vector3d b = vector_of(cloud.positions[neighbors[j]]) - p;
       const Eigen::Vector3d normal = a.cross(b);
-      if (normal.norm() > 0 && normal.norm() >= min_sine * a.norm() * b.norm()) lines.push_back(normal.normalized());
+      if (normal.norm() > 0 && normal.norm() >= min_sine * a.norm() * b.norm())
+        lines.push_back(normal.normalized());
     }
   if (lines.size() < 3) return {Kind::Flat, 0};
   const double needed = std::max(3.0, std::ceil(static_cast<double>(lines.size()) / 10));

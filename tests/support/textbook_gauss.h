@@ -14,9 +14,11 @@ struct TextbookLabel {
   int clusters = 0;
 };
 
-/// Section 4 of Weber, Hahmann, Hagen 2010 word for word, for one point: doubles, arc cosines, clusters as lists of
-/// lines, and at every step a look at all pairs of clusters. Shares no code with the library's fast path.
-TextbookLabel textbook_gauss(const PointCloud& cloud, std::size_t point, std::span<const std::uint32_t> neighbors,
-                             double sigma_deg, int max_clusters, double min_sine);
+/// Section 4 of Weber, Hahmann, Hagen 2010 word for word, for one point: doubles, arc cosines, clusters as
+/// lists of lines, and at every step a look at all pairs of clusters. Shares no code with the library's fast
+/// path.
+TextbookLabel textbook_gauss(const PointCloud& cloud, std::size_t point,
+                             std::span<const std::uint32_t> neighbors, double sigma_deg, int max_clusters,
+                             double min_sine);
 
 }  // namespace keenline::test

@@ -34,13 +34,19 @@ void validate(const GaussOptions& options) {
   const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
     if (!ok) throw InvalidArgument(fmt::format("--{}: found {}, expected {}", name, found, expected));
   };
-  require(options.neighbors >= min_neighbors && options.neighbors <= max_neighbors, "neighbors", options.neighbors, "3 to 255");
+  require(options.neighbors >= min_neighbors && options.neighbors <= max_neighbors, "neighbors",
+          options.neighbors, "3 to 255");
   if (options.sigma_deg)
-    require(*options.sigma_deg > 0 && *options.sigma_deg <= 90, "sigma", *options.sigma_deg, "more than 0, up to 90 degrees");
-  require(options.sigma_deg.has_value() || !options.plain, "sigma", "auto", "a number of degrees: plain leaves nothing to choose");
-  if (options.min_cluster) require(*options.min_cluster >= 1, "min-cluster", *options.min_cluster, "1 or more");
-  require(options.max_clusters >= 2 && options.max_clusters <= 255, "max-clusters", options.max_clusters, "2 to 255");
-  require(options.flatness_deg >= 0 && options.flatness_deg <= 90, "flatness", options.flatness_deg, "0 to 90 degrees");
+    require(*options.sigma_deg > 0 && *options.sigma_deg <= 90, "sigma", *options.sigma_deg,
+            "more than 0, up to 90 degrees");
+  require(options.sigma_deg.has_value() || !options.plain, "sigma", "auto",
+          "a number of degrees: plain leaves nothing to choose");
+  if (options.min_cluster)
+    require(*options.min_cluster >= 1, "min-cluster", *options.min_cluster, "1 or more");
+  require(options.max_clusters >= 2 && options.max_clusters <= 255, "max-clusters", options.max_clusters,
+          "2 to 255");
+  require(options.flatness_deg >= 0 && options.flatness_deg <= 90, "flatness", options.flatness_deg,
+          "0 to 90 degrees");
   require(options.min_sine >= 0 && options.min_sine <= 1, "min-sine", options.min_sine, "0 to 1");
 }
 
@@ -48,20 +54,23 @@ void validate(const GaussOptions& options) {
 struct Dendrogram {
   bool decided = false;
   int lines = 0;
-  int min_cluster = 0;                    // lines of a significant cluster
-  bool one_direction = false;             // one cluster at every sensitivity of interest: merges are not computed
-  std::span<const kernels::Merge> merges; // in the order of average_linkage()
+  int min_cluster = 0;         // lines of a significant cluster
+  bool one_direction = false;  // one cluster at every sensitivity of interest: merges are not computed
+  std::span<const kernels::Merge> merges;  // in the order of average_linkage()
 };
 
 /// Number of clusters with at least min_cluster lines when merging stops at `sigma_deg`.
 int significant_clusters(const Dendrogram& dendrogram, double sigma_deg) {
-  const auto significant = [&](std::uint32_t size) { return size >= static_cast<std::uint32_t>(dendrogram.min_cluster) ? 1 : 0; };
+  const auto significant = [&](std::uint32_t size) {
+    return size >= static_cast<std::uint32_t>(dendrogram.min_cluster) ? 1 : 0;
+  };
   if (dendrogram.one_direction) return significant(static_cast<std::uint32_t>(dendrogram.lines));
   const double cut = sigma_deg * angle_units_per_degree;
   int count = dendrogram.lines * significant(1);
   for (const kernels::Merge& merge : dendrogram.merges)
     if (merge.height <= cut)
-      count += significant(merge.first_size + merge.second_size) - significant(merge.first_size) - significant(merge.second_size);
+      count += significant(merge.first_size + merge.second_size) - significant(merge.first_size) -
+               significant(merge.second_size);
   return count;
 }
 
@@ -85,7 +94,8 @@ Kind kind_of(const Dendrogram& dendrogram, int clusters, int max_clusters) {
 /// Clusters the Gauss map of one point after the other; every thread has its own.
 class GaussMap {
  public:
-  GaussMap(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options, const Progress& progress)
+  GaussMap(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options,
+           const Progress& progress)
       : cloud_(cloud), neighborhoods_(neighborhoods), options_(options), progress_(progress) {}
 
   /// `complete`: merges are wanted even below the smallest sensitivity.
@@ -100,20 +110,19 @@ class GaussMap {
     dendrogram.min_cluster = options_.min_cluster.value_or(std::max(3, (lines + 9) / 10));
     if (lines < 3) return dendrogram;
     const kernels::Lines view{x_.data(), y_.data(), z_.data(), lines};
-    dendrogram.one_direction = (!complete && kernels::all_within(view, spectrum_step_deg * angle_units_per_degree)) || is_flat(view);
+    dendrogram.one_direction =
+        (!complete && kernels::all_within(view, spectrum_step_deg * angle_units_per_degree)) || is_flat(view);
     if (dendrogram.one_direction) return dendrogram;
     merges_.resize(static_cast<std::size_t>(lines) - 1);
-    if (lines <= kernels::largest_count_in_32_bits)
-      cluster(view, sums32_);
-    else
-      cluster(view, sums64_);
+    if (lines <= kernels::largest_count_in_32_bits) cluster(view, sums32_);
+    else cluster(view, sums64_);
     dendrogram.merges = merges_;
     return dendrogram;
   }
 
  private:
-  /// The lines through the triangles (p, q_i, q_j), i < j. Offsets are taken in double precision and scaled by a power
-  /// of two, so that neither large coordinates nor tiny or huge shapes lose anything.
+  /// The lines through the triangles (p, q_i, q_j), i < j. Offsets are taken in double precision and scaled
+  /// by a power of two, so that neither large coordinates nor tiny or huge shapes lose anything.
   void collect_lines(const Point& p, std::span<const std::uint32_t> neighbors) {
     double largest = gather_offsets(p, neighbors, 1);
     // The difference of two large coordinates may leave the range of doubles; that of their halves does not.
@@ -154,8 +163,9 @@ class GaussMap {
     z_.push_back(static_cast<float>(normal[2] / length));
   }
 
-  /// The pre-test of Weber, Hahmann, Hagen, Shape Modeling International 2010: lines that deviate little from their
-  /// common direction make a flat point, however they might cluster. Noise on a face passes it, an edge does not.
+  /// The pre-test of Weber, Hahmann, Hagen, Shape Modeling International 2010: lines that deviate little from
+  /// their common direction make a flat point, however they might cluster. Noise on a face passes it, an edge
+  /// does not.
   [[nodiscard]] bool is_flat(const kernels::Lines& lines) const {
     if (options_.plain || options_.flatness_deg == 0) return false;
     kernels::Symmetric3 tensor;
@@ -171,7 +181,8 @@ class GaussMap {
       tensor.zz += z * z;
     }
     const auto common = kernels::eigen_decomposition(tensor).vectors[0];
-    const double deviation = kernels::mean_angle_to(lines, static_cast<float>(common[0]), static_cast<float>(common[1]), static_cast<float>(common[2]));
+    const double deviation = kernels::mean_angle_to(
+        lines, static_cast<float>(common[0]), static_cast<float>(common[1]), static_cast<float>(common[2]));
     return deviation < options_.flatness_deg * angle_units_per_degree;
   }
 
@@ -180,8 +191,11 @@ class GaussMap {
     const auto n = static_cast<std::size_t>(lines.count);
     sums.resize(n * n);
     kernels::line_angles(lines, sums.data());
-    const auto stop = [](const void* progress) { return static_cast<const Progress*>(progress)->cancelled(); };
-    if (!kernels::average_linkage(sums.data(), lines.count, workspace_, merges_.data(), stop, &progress_)) throw Cancelled();
+    const auto stop = [](const void* progress) {
+      return static_cast<const Progress*>(progress)->cancelled();
+    };
+    if (!kernels::average_linkage(sums.data(), lines.count, workspace_, merges_.data(), stop, &progress_))
+      throw Cancelled();
   }
 
   const PointCloud& cloud_;
@@ -199,49 +213,58 @@ class GaussMap {
 
 /// Calls visit(GaussMap&, i) for i = 0 … count-1 on all threads.
 template <typename Visit>
-void for_each_gauss_map(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options,
-                        std::size_t count, Progress& progress, const Visit& visit) {
+void for_each_gauss_map(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                        const GaussOptions& options, std::size_t count, Progress& progress,
+                        const Visit& visit) {
   if (neighborhoods.size() != cloud.size())
     throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
-  const auto lines = static_cast<std::uint64_t>(options.neighbors) * static_cast<std::uint64_t>(options.neighbors - 1) / 2;
+  const auto lines =
+      static_cast<std::uint64_t>(options.neighbors) * static_cast<std::uint64_t>(options.neighbors - 1) / 2;
   const std::uint64_t sum_size = lines <= kernels::largest_count_in_32_bits ? 4 : 8;
-  const std::uint64_t threads = std::min<std::uint64_t>(static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency()), count);
-  require_memory(threads * lines * lines * sum_size,
-                 fmt::format("Gauss map clustering with {} neighbors on {} threads", options.neighbors, threads));
-  tbb::enumerable_thread_specific<GaussMap> maps([&] { return GaussMap(cloud, neighborhoods, options, progress); });
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    GaussMap& map = maps.local();
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      progress.check();
-      visit(map, i);
-    }
-    progress.advance(range.size());
-  });
+  const std::uint64_t threads =
+      std::min<std::uint64_t>(static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency()), count);
+  require_memory(
+      threads * lines * lines * sum_size,
+      fmt::format("Gauss map clustering with {} neighbors on {} threads", options.neighbors, threads));
+  tbb::enumerable_thread_specific<GaussMap> maps(
+      [&] { return GaussMap(cloud, neighborhoods, options, progress); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      GaussMap& map = maps.local();
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        progress.check();
+                        visit(map, i);
+                      }
+                      progress.advance(range.size());
+                    });
 }
 
 }  // namespace
 
-FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options,
-                           Progress& progress) {
+FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                           const GaussOptions& options, Progress& progress) {
   validate(options);
-  const double sigma_deg = options.sigma_deg ? *options.sigma_deg : choose_sigma(cloud, neighborhoods, options, progress);
+  const double sigma_deg =
+      options.sigma_deg ? *options.sigma_deg : choose_sigma(cloud, neighborhoods, options, progress);
   progress.begin("gauss", cloud.size());
   FeatureLabels labels;
   labels.kind.resize(cloud.size());
   labels.score.resize(cloud.size());
   labels.clusters.resize(cloud.size());
   const bool complete = sigma_deg < spectrum_step_deg;
-  for_each_gauss_map(cloud, neighborhoods, options, cloud.size(), progress, [&](GaussMap& map, std::size_t i) {
-    const Dendrogram dendrogram = map.of(i, complete);
-    const int clusters = significant_clusters(dendrogram, sigma_deg);
-    labels.kind[i] = kind_of(dendrogram, clusters, options.max_clusters);
-    labels.clusters[i] = static_cast<std::uint8_t>(std::min(clusters, 255));
-    labels.score[i] = sharpness_deg(dendrogram);
-  });
+  for_each_gauss_map(cloud, neighborhoods, options, cloud.size(), progress,
+                     [&](GaussMap& map, std::size_t i) {
+                       const Dendrogram dendrogram = map.of(i, complete);
+                       const int clusters = significant_clusters(dendrogram, sigma_deg);
+                       labels.kind[i] = kind_of(dendrogram, clusters, options.max_clusters);
+                       labels.clusters[i] = static_cast<std::uint8_t>(std::min(clusters, 255));
+                       labels.score[i] = sharpness_deg(dendrogram);
+                     });
   return labels;
 }
 
-double choose_sigma(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options, Progress& progress) {
+double choose_sigma(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options,
+                    Progress& progress) {
   validate(options);
   constexpr std::size_t largest_sample = 16384;
   const std::size_t step = (cloud.size() + largest_sample - 1) / largest_sample;
@@ -254,14 +277,16 @@ double choose_sigma(const PointCloud& cloud, const Neighborhoods& neighborhoods,
     const Dendrogram dendrogram = map.of(i * step, false);
     for (int s = 0; s < spectrum_size; ++s) {
       const int clusters = significant_clusters(dendrogram, (s + 1) * spectrum_step_deg);
-      if (is_feature(kind_of(dendrogram, clusters, options.max_clusters))) is_feature_at[i] |= std::uint64_t{1} << static_cast<unsigned>(s);
+      if (is_feature(kind_of(dendrogram, clusters, options.max_clusters)))
+        is_feature_at[i] |= std::uint64_t{1} << static_cast<unsigned>(s);
     }
   });
 
-  // Labels that change between sensitivities a quarter below and a quarter above, against those that are features.
-  // The share of the whole keeps a sensitivity that sees nothing at all from looking perfectly stable.
-  const int first = 6;   // 9.8 degrees: below, sampling alone scatters the lines of a curved surface
-  const int last = 31;   // 45 degrees: above, edges of 90 degrees begin to vanish
+  // Labels that change between sensitivities a quarter below and a quarter above, against those that are
+  // features. The share of the whole keeps a sensitivity that sees nothing at all from looking perfectly
+  // stable.
+  const int first = 6;  // 9.8 degrees: below, sampling alone scatters the lines of a curved surface
+  const int last = 31;  // 45 degrees: above, edges of 90 degrees begin to vanish
   double best_change = 2;
   double best_sigma_deg = 20;
   for (int s = first; s <= last; ++s) {
@@ -270,14 +295,17 @@ double choose_sigma(const PointCloud& cloud, const Neighborhoods& neighborhoods,
     std::size_t changing = 0;
     std::size_t features = 0;
     for (const std::uint64_t bits : is_feature_at) {
-      const std::uint64_t window = (bits >> static_cast<unsigned>(low)) & ((std::uint64_t{2} << static_cast<unsigned>(high - low)) - 1);
+      const std::uint64_t window = (bits >> static_cast<unsigned>(low)) &
+                                   ((std::uint64_t{2} << static_cast<unsigned>(high - low)) - 1);
       const std::uint64_t full = (std::uint64_t{2} << static_cast<unsigned>(high - low)) - 1;
       changing += window != 0 && window != full ? 1U : 0U;
       features += (bits >> static_cast<unsigned>(s)) & 1U;
     }
-    const double change = static_cast<double>(changing + 1) / (static_cast<double>(features) + 0.01 * static_cast<double>(count) + 1);
+    const double change = static_cast<double>(changing + 1) /
+                          (static_cast<double>(features) + 0.01 * static_cast<double>(count) + 1);
     const double sigma_deg = (s + 1) * spectrum_step_deg;
-    if (change < best_change || (change == best_change && std::abs(sigma_deg - 20) < std::abs(best_sigma_deg - 20))) {
+    if (change < best_change ||
+        (change == best_change && std::abs(sigma_deg - 20) < std::abs(best_sigma_deg - 20))) {
       best_change = change;
       best_sigma_deg = sigma_deg;
     }

@@ -17,13 +17,13 @@ struct PointCloud;
 /// One option of a method, stated once: the command line, bindings and docs take it from here.
 struct OptionInfo {
   enum class Type { Integer, Real, Flag };  // a flag is 0 or 1
-  std::string_view name;      ///< as a flag without the dashes: "min-cluster"
-  std::string_view summary;   ///< one line
+  std::string_view name;                    ///< as a flag without the dashes: "min-cluster"
+  std::string_view summary;                 ///< one line
   Type type;
   double minimum;
   double maximum;
-  bool minimum_excluded;      ///< the value must be larger than minimum
-  std::string_view unit;      ///< "degrees", "points", … or empty
+  bool minimum_excluded;  ///< the value must be larger than minimum
+  std::string_view unit;  ///< "degrees", "points", … or empty
   /// Empty when the default is `automatic` (chosen from the data).
   std::optional<double> default_value;
   /// The word for "chosen from the data" (usually "auto"); empty when a number is needed.
@@ -37,14 +37,15 @@ enum class MethodInput { Points, Mesh };
 
 /// One published method: one row of the registry.
 struct Method {
-  std::string_view name;      ///< file, flag, docs page and test: "gauss"
-  std::string_view summary;   ///< one line
-  std::string_view paper;     ///< authors, year, title
+  std::string_view name;     ///< file, flag, docs page and test: "gauss"
+  std::string_view summary;  ///< one line
+  std::string_view paper;    ///< authors, year, title
   MethodInput input;
   std::span<const OptionInfo> options;
   /// How far a point's label depends on its surroundings, in nearest neighbours.
   int (*reach)(const OptionValues& values);
-  /// `values` holds every option of the method (see resolve_options); it comes back with what was chosen from the data.
+  /// `values` holds every option of the method (see resolve_options); it comes back with what was chosen from
+  /// the data.
   FeatureLabels (*detect)(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
                           Progress& progress);
 };

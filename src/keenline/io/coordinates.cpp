@@ -21,10 +21,11 @@ namespace {
 
 template <typename Body>
 void for_blocks(std::size_t count, const Progress& progress, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16384), [&](const tbb::blocked_range<std::size_t>& range) {
-    progress.check();
-    body(range.begin(), range.end());
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16384),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      progress.check();
+                      body(range.begin(), range.end());
+                    });
 }
 
 /// Whether `value`, read from a text, is how some program prints a float: rounded to some number of digits.
@@ -35,9 +36,13 @@ bool is_printed_float(double value) {
   if (nearest == value) return true;
   std::array<char, 64> text{};
   for (int digits_after_first = 5; digits_after_first <= 16; ++digits_after_first) {
-    const auto printed = std::to_chars(text.data(), text.data() + text.size(), nearest, std::chars_format::scientific, digits_after_first);
+    const auto printed = std::to_chars(text.data(), text.data() + text.size(), nearest,
+                                       std::chars_format::scientific, digits_after_first);
     double back = 0;
-    if (parse_number({text.data(), static_cast<std::size_t>(printed.ptr - text.data())}, back) == Parsed::Ok && back == value) return true;
+    if (parse_number({text.data(), static_cast<std::size_t>(printed.ptr - text.data())}, back) ==
+            Parsed::Ok &&
+        back == value)
+      return true;
   }
   return false;
 }
@@ -57,8 +62,8 @@ ScalarType parsed_coordinate_type(ScalarType declared) {
   return declared == ScalarType::Float32 ? ScalarType::Float64 : declared;
 }
 
-std::optional<std::size_t> set_axis(PointCloud& cloud, std::size_t axis, const Column& column, ScalarType declared,
-                                    const Progress& progress) {
+std::optional<std::size_t> set_axis(PointCloud& cloud, std::size_t axis, const Column& column,
+                                    ScalarType declared, const Progress& progress) {
   std::optional<std::size_t> inexact;
   visit_type(column.type(), [&](auto zero) {
     using T = decltype(zero);
@@ -74,7 +79,8 @@ std::optional<std::size_t> set_axis(PointCloud& cloud, std::size_t axis, const C
       if (declared == ScalarType::Float32 && all_are_printed_floats(values, progress)) {
         cloud.position_types[axis] = declared;
         for_blocks(values.size(), progress, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) cloud.positions[i][axis] = static_cast<double>(static_cast<float>(values[i]));
+          for (std::size_t i = begin; i < end; ++i)
+            cloud.positions[i][axis] = static_cast<double>(static_cast<float>(values[i]));
         });
         return;
       }
@@ -88,7 +94,8 @@ std::optional<std::size_t> set_axis(PointCloud& cloud, std::size_t axis, const C
 }
 
 std::string number_text(const Column& column, std::size_t i) {
-  return visit_type(column.type(), [&](auto zero) { return fmt::format("{}", column.values<decltype(zero)>()[i]); });
+  return visit_type(column.type(),
+                    [&](auto zero) { return fmt::format("{}", column.values<decltype(zero)>()[i]); });
 }
 
 }  // namespace keenline

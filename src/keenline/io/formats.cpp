@@ -30,8 +30,10 @@ constexpr std::array<std::string_view, 1> obj_extensions{"obj"};
 constexpr std::array<std::string_view, 6> xyz_extensions{"xyz", "txt", "csv", "asc", "pts", "pwn"};
 
 constexpr std::array table{
-    Format{"ply", "Polygon file format: ascii, binary little and big endian", ply_extensions, match_ply, read_ply},
-    Format{"pcd", "Point Cloud Library: ascii, binary, binary_compressed", pcd_extensions, match_pcd, read_pcd},
+    Format{"ply", "Polygon file format: ascii, binary little and big endian", ply_extensions, match_ply,
+           read_ply},
+    Format{"pcd", "Point Cloud Library: ascii, binary, binary_compressed", pcd_extensions, match_pcd,
+           read_pcd},
     Format{"las", "LAS 1.0 to 1.4, uncompressed, point formats 0 to 10", las_extensions, match_las, read_las},
     Format{"off", "Object file format (OFF, NOFF, COFF, …)", off_extensions, match_off, read_off},
     Format{"stl", "Stereolithography: ascii and binary", stl_extensions, match_stl, read_stl},
@@ -55,17 +57,20 @@ std::span<const Format> formats() { return table; }
 
 const Format& find_format(const Source& source) {
   const auto with_match = [&](Match wanted) {
-    return std::find_if(table.begin(), table.end(), [&](const Format& f) { return f.match(source) == wanted; });
+    return std::find_if(table.begin(), table.end(),
+                        [&](const Format& f) { return f.match(source) == wanted; });
   };
   if (const auto found = with_match(Match::Strong); found != table.end()) return *found;
   const std::string extension = extension_of(source.name);
   for (const Format& format : table)
-    if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return format;
+    if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end())
+      return format;
   if (const auto found = with_match(Match::Weak); found != table.end()) return *found;
 
   std::vector<std::string_view> names;
   for (const Format& format : table) names.push_back(format.name);
-  throw InputError(source.name, Place::byte(0), source.bytes.empty() ? "an empty file" : quoted(source.bytes.substr(0, 16)),
+  throw InputError(source.name, Place::byte(0),
+                   source.bytes.empty() ? "an empty file" : quoted(source.bytes.substr(0, 16)),
                    fmt::format("one of the formats {}", fmt::join(names, ", ")));
 }
 

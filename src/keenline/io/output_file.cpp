@@ -1,17 +1,16 @@
 #include "keenline/io/output_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <memory>
 #include <optional>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -57,7 +56,8 @@ struct Target {
 };
 
 Target resolve_target(const std::string& path) {
-  if (path.empty() || path.find('\0') != std::string::npos) throw OutputError(path, "cannot be written: not a file name");
+  if (path.empty() || path.find('\0') != std::string::npos)
+    throw OutputError(path, "cannot be written: not a file name");
   Target target{path, std::nullopt};
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) {

@@ -99,7 +99,8 @@ class Body {
     RowFormat format;
     for (const PcdField& field : header_.fields) {
       format.names.insert(format.names.end(), field.count, field.name);
-      format.types.insert(format.types.end(), field.count, is_axis(field.name) ? parsed_coordinate_type(field.type) : field.type);
+      format.types.insert(format.types.end(), field.count,
+                          is_axis(field.name) ? parsed_coordinate_type(field.type) : field.type);
     }
     Rows rows = read_rows(source_, bytes_, header_.body_line, format, header_.points, progress_);
     expect_end_of_rows(rows.consumed, rows.next_line);
@@ -253,8 +254,10 @@ Reading read_pcd(const Source& source, Progress& progress) {
     } else {
       const auto number = static_cast<std::size_t>(axis - axes.begin());
       if (const auto inexact = set_axis(cloud, number, column, declared[number], progress)) {
-        throw InputError(source.name, Place::file(), fmt::format("{} = {} at point {}", column.name(), number_text(column, *inexact), *inexact),
-                         "a number that a double holds exactly");
+        throw InputError(
+            source.name, Place::file(),
+            fmt::format("{} = {} at point {}", column.name(), number_text(column, *inexact), *inexact),
+            "a number that a double holds exactly");
       }
     }
   }

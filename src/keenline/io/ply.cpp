@@ -80,15 +80,16 @@ class CloudBuilder {
   CloudBuilder(const Source& source, const PlyBody& body, Progress& progress)
       : source_(source), body_(body), progress_(progress) {}
 
-  /// Moves the columns x, y, z into the positions; the others become attributes. `declared`: the types of x, y and z
-  /// in the header.
+  /// Moves the columns x, y, z into the positions; the others become attributes. `declared`: the types of x,
+  /// y and z in the header.
   void take_vertices(PlyRows& rows, const std::array<ScalarType, 3>& declared) {
     cloud.positions.resize(rows.table.rows);
     for (std::size_t d = 0; d < 3; ++d) {
       const auto column = std::find_if(rows.table.columns.begin(), rows.table.columns.end(),
                                        [&](const Column& c) { return c.name() == axes[d]; });
       if (const auto inexact = set_axis(cloud, d, *column, declared[d], progress_)) {
-        throw InputError(source_.name, body_.place_of(rows, *inexact), fmt::format("{} = {}", column->name(), number_text(*column, *inexact)),
+        throw InputError(source_.name, body_.place_of(rows, *inexact),
+                         fmt::format("{} = {}", column->name(), number_text(*column, *inexact)),
                          "a number that a double holds exactly");
       }
     }

@@ -1,11 +1,10 @@
 #include "keenline/io/source.h"
 
+#include <cerrno>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
 
 #include "keenline/errors.h"
 
@@ -42,12 +41,15 @@ int open_retrying(const char* path) {
 }  // namespace
 
 MappedFile::MappedFile(const std::string& path) : path_(path) {
-  if (path.find('\0') != std::string::npos) throw InputError(path, "cannot be opened: the name holds a zero byte");
+  if (path.find('\0') != std::string::npos)
+    throw InputError(path, "cannot be opened: the name holds a zero byte");
   const Descriptor file(open_retrying(path.c_str()));
   if (file.number < 0) throw InputError(path, "cannot be opened: " + system_message(errno));
   struct stat status {};
-  if (::fstat(file.number, &status) != 0) throw InputError(path, "cannot be examined: " + system_message(errno));
-  if (!S_ISREG(status.st_mode)) throw InputError(path, std::string(kind_of_file(status.st_mode)) + ", expected a file");
+  if (::fstat(file.number, &status) != 0)
+    throw InputError(path, "cannot be examined: " + system_message(errno));
+  if (!S_ISREG(status.st_mode))
+    throw InputError(path, std::string(kind_of_file(status.st_mode)) + ", expected a file");
   size_ = static_cast<std::size_t>(status.st_size);
   if (size_ == 0) return;
   void* memory = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.number, 0);

@@ -7,8 +7,8 @@
 
 namespace keenline {
 
-/// The bytes of one input, and the name that messages give it. Readers work on this, so that they can be tested and
-/// fuzzed without files.
+/// The bytes of one input, and the name that messages give it. Readers work on this, so that they can be
+/// tested and fuzzed without files.
 struct Source {
   std::string name;
   std::string_view bytes;

@@ -30,7 +30,8 @@ Parsed parse_float(std::string_view word, Float& value) {
   const char* const end = word.data() + word.size();
   const auto result = fast_float::from_chars(word.data(), end, value);
   if (word.empty() || result.ptr != end) return Parsed::NotANumber;
-  // fast_float up to version 3 gives infinity for what is too large, later ones an error code with the same value.
+  // fast_float up to version 3 gives infinity for what is too large, later ones an error code with the same
+  // value.
   if (std::isinf(value) && !is_infinity_word(word)) return Parsed::OutOfRange;
   if (result.ec != std::errc() && result.ec != std::errc::result_out_of_range) return Parsed::NotANumber;
   return Parsed::Ok;
@@ -62,7 +63,8 @@ Parsed parse_integer(std::string_view word, Integer& value) {
 LineReader::LineReader(std::string_view text, std::uint64_t first_line_number)
     : rest_(text), number_(first_line_number - 1) {
   const std::size_t first_end = text.find_first_of("\r\n");
-  if (first_end != std::string_view::npos && text[first_end] == '\r' && text.substr(first_end + 1, 1) != "\n") end_ = '\r';
+  if (first_end != std::string_view::npos && text[first_end] == '\r' && text.substr(first_end + 1, 1) != "\n")
+    end_ = '\r';
 }
 
 bool LineReader::next(std::string_view& line) {
@@ -101,10 +103,8 @@ bool starts_with_ignoring_case(std::string_view text, std::string_view lower_cas
 
 template <typename T>
 Parsed parse_number(std::string_view word, T& value) {
-  if constexpr (std::is_floating_point_v<T>)
-    return parse_float(word, value);
-  else
-    return parse_integer(word, value);
+  if constexpr (std::is_floating_point_v<T>) return parse_float(word, value);
+  else return parse_integer(word, value);
 }
 
 template <typename T>

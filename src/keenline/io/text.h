@@ -5,8 +5,8 @@
 
 namespace keenline {
 
-/// Walks through the lines of a text: "\n" and "\r\n" end a line, a lone "\r" too when the text has no "\n" at its
-/// first line end. The end of the text ends the last line.
+/// Walks through the lines of a text: "\n" and "\r\n" end a line, a lone "\r" too when the text has no "\n"
+/// at its first line end. The end of the text ends the last line.
 class LineReader {
  public:
   explicit LineReader(std::string_view text, std::uint64_t first_line_number = 1);
@@ -38,7 +38,8 @@ enum class Parsed : std::uint8_t { Ok, NotANumber, OutOfRange };
 
 /// The whole of `word` as a number of type T (any scalar type of cloud.h), independent of locale.
 /// Floating point: decimal or exponent notation, nan and inf in any case, leading '+'. Overflow is OutOfRange
-/// (underflow rounds). Integers: decimal digits with sign; also a decimal fraction that is a whole number ("255.0").
+/// (underflow rounds). Integers: decimal digits with sign; also a decimal fraction that is a whole number
+/// ("255.0").
 template <typename T>
 [[nodiscard]] Parsed parse_number(std::string_view word, T& value);
 

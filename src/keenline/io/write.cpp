@@ -27,7 +27,8 @@ const Writer& find_writer(std::string_view path) {
            starts_with_ignoring_case(path.substr(path.size() - writer.extension.size()), writer.extension);
   });
   if (found == writers.end())
-    throw InvalidArgument(fmt::format("output {}: expected a name that ends in .ply or .csv", quoted(path, 4096)));
+    throw InvalidArgument(
+        fmt::format("output {}: expected a name that ends in .ply or .csv", quoted(path, 4096)));
   return *found;
 }
 

@@ -12,10 +12,11 @@ namespace keenline {
 /// \throw InvalidArgument unless the extension of `path` names a format that can be written: .ply or .csv.
 void require_writable_extension(std::string_view path);
 
-/// Writes the cloud with every attribute, whole or not at all: beside the target first, flushed, then renamed.
-/// The format follows the extension: .ply (binary little endian) or .csv.
-/// Returns notes: what the format could not hold as it was.
-/// \throw InvalidArgument for another extension; OutputError, with the target as it was before; Cancelled.
-std::vector<std::string> write_cloud(const std::string& path, const PointCloud& cloud, Progress& progress = no_progress());
+/// Writes the cloud with every attribute, whole or not at all: beside the target first, flushed, then
+/// renamed. The format follows the extension: .ply (binary little endian) or .csv. Returns notes: what the
+/// format could not hold as it was. \throw InvalidArgument for another extension; OutputError, with the
+/// target as it was before; Cancelled.
+std::vector<std::string> write_cloud(const std::string& path, const PointCloud& cloud,
+                                     Progress& progress = no_progress());
 
 }  // namespace keenline

@@ -9,18 +9,19 @@ namespace {
 
 using Slot = LinkageWorkspace::Slot;
 
-/// The clusters that are still to be merged: slots 0 … active-1 of a matrix whose rows keep their first length.
+/// The clusters that are still to be merged: slots 0 … active-1 of a matrix whose rows keep their first
+/// length.
 template <typename Sum>
 struct Clusters {
-  Sum* sums;           // sums[a * stride + b]: sum of distances between the items of a and those of b
+  Sum* sums;  // sums[a * stride + b]: sum of distances between the items of a and those of b
   std::size_t stride;
   Slot* slots;
   std::size_t active;
 };
 
-/// Slot of the cluster nearest to `slot`: least mean distance, then least name (which for a fixed `slot` is the order
-/// of pairs by (smaller name, larger name)). The means' common factor 1 / size(slot) is left out, and fractions are
-/// compared crosswise: sums stay below 2^44 and sizes below 2^15, so products fit 64 bits.
+/// Slot of the cluster nearest to `slot`: least mean distance, then least name (which for a fixed `slot` is
+/// the order of pairs by (smaller name, larger name)). The means' common factor 1 / size(slot) is left out,
+/// and fractions are compared crosswise: sums stay below 2^44 and sizes below 2^15, so products fit 64 bits.
 template <typename Sum>
 std::size_t nearest(const Clusters<Sum>& clusters, std::size_t slot) {
   const Sum* const row = clusters.sums + slot * clusters.stride;
@@ -55,8 +56,10 @@ template <typename Sum>
 void join(Clusters<Sum>& clusters, std::size_t a, std::size_t b) {
   Sum* const sums = clusters.sums;
   const std::size_t stride = clusters.stride;
-  for (std::size_t other = 0; other < clusters.active; ++other) sums[a * stride + other] += sums[b * stride + other];
-  for (std::size_t other = 0; other < clusters.active; ++other) sums[other * stride + a] = sums[a * stride + other];
+  for (std::size_t other = 0; other < clusters.active; ++other)
+    sums[a * stride + other] += sums[b * stride + other];
+  for (std::size_t other = 0; other < clusters.active; ++other)
+    sums[other * stride + a] = sums[a * stride + other];
   clusters.slots[a].name = std::min(clusters.slots[a].name, clusters.slots[b].name);
   clusters.slots[a].size += clusters.slots[b].size;
 
@@ -72,8 +75,8 @@ void join(Clusters<Sum>& clusters, std::size_t a, std::size_t b) {
 }  // namespace
 
 template <typename Sum>
-bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* merges, bool (*stop)(const void*),
-                     const void* stop_argument) {
+bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* merges,
+                     bool (*stop)(const void*), const void* stop_argument) {
   const auto n = static_cast<std::size_t>(count);
   workspace.slots.resize(n);
   for (std::size_t i = 0; i < n; ++i) workspace.slots[i] = {static_cast<std::uint32_t>(i), 1};
@@ -91,8 +94,9 @@ bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* m
       chain.push_back(static_cast<std::uint32_t>(next));
       continue;
     }
-    // Each is the other's nearest: no later merge can come between them, because mean distances never shrink below
-    // the smaller of their parts (average linkage is reducible), and names never fall below the smaller either.
+    // Each is the other's nearest: no later merge can come between them, because mean distances never shrink
+    // below the smaller of their parts (average linkage is reducible), and names never fall below the smaller
+    // either.
     chain.resize(chain.size() - 2);
     *merges++ = merged(clusters, top, next);
     const std::size_t last = clusters.active - 1;
@@ -105,9 +109,9 @@ bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* m
   return true;
 }
 
-template bool average_linkage<std::uint32_t>(std::uint32_t*, int, LinkageWorkspace&, Merge*, bool (*)(const void*),
-                                             const void*);
-template bool average_linkage<std::uint64_t>(std::uint64_t*, int, LinkageWorkspace&, Merge*, bool (*)(const void*),
-                                             const void*);
+template bool average_linkage<std::uint32_t>(std::uint32_t*, int, LinkageWorkspace&, Merge*,
+                                             bool (*)(const void*), const void*);
+template bool average_linkage<std::uint64_t>(std::uint64_t*, int, LinkageWorkspace&, Merge*,
+                                             bool (*)(const void*), const void*);
 
 }  // namespace keenline::kernels

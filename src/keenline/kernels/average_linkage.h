@@ -7,11 +7,11 @@ namespace keenline::kernels {
 
 /// One step of agglomerative clustering: two clusters become one.
 struct Merge {
-  std::uint32_t first;       ///< smallest item of the one cluster; the merged cluster keeps this name
-  std::uint32_t second;      ///< smallest item of the other, > first
-  std::uint32_t first_size;  ///< items in the one …
-  std::uint32_t second_size; ///< … and in the other
-  double height;             ///< mean distance between items of the one and items of the other
+  std::uint32_t first;        ///< smallest item of the one cluster; the merged cluster keeps this name
+  std::uint32_t second;       ///< smallest item of the other, > first
+  std::uint32_t first_size;   ///< items in the one …
+  std::uint32_t second_size;  ///< … and in the other
+  double height;              ///< mean distance between items of the one and items of the other
 };
 
 /// Room for a clustering, kept between calls.
@@ -25,10 +25,10 @@ struct LinkageWorkspace {
 };
 
 /// Average-linkage clustering of `count` items, exact in whole numbers.
-/// Always merges the closest pair of clusters; equal distances in the order of (smaller name, larger name). The pairs
-/// are found by nearest-neighbour chain, in O(count^2), so that merges come in another order than by height: but a
-/// cluster comes after what it consists of, and no cluster is lower than its parts.
-/// \param sums  in: distances between items, sums[i * count + j], symmetric, each <= 65520; destroyed.
+/// Always merges the closest pair of clusters; equal distances in the order of (smaller name, larger name).
+/// The pairs are found by nearest-neighbour chain, in O(count^2), so that merges come in another order than
+/// by height: but a cluster comes after what it consists of, and no cluster is lower than its parts. \param
+/// sums  in: distances between items, sums[i * count + j], symmetric, each <= 65520; destroyed.
 ///              Sum = std::uint32_t holds up to 512 items, std::uint64_t any number.
 /// \param merges out: count - 1 entries
 /// \param stop  asked now and then; when it answers true the function returns false and merges are incomplete
@@ -36,8 +36,8 @@ template <typename Sum>
 [[nodiscard]] bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* merges,
                                    bool (*stop)(const void*) = nullptr, const void* stop_argument = nullptr);
 
-/// Largest number of items whose sums of distances fit 32 bits: a cluster pair has at most (512 / 2)^2 = 65536 item
-/// pairs of at most 65520 units.
+/// Largest number of items whose sums of distances fit 32 bits: a cluster pair has at most (512 / 2)^2 =
+/// 65536 item pairs of at most 65520 units.
 inline constexpr int largest_count_in_32_bits = 512;
 
 }  // namespace keenline::kernels

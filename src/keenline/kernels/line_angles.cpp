@@ -14,8 +14,8 @@ float cosine(const Lines& lines, int i, int j) {
 }  // namespace
 
 std::uint32_t line_angle(float cosine) {
-  // acos(c) = sqrt(1 - c) P(c), |error| <= 2e-8 rad: Abramowitz & Stegun 4.4.46. Not the C library's acos, whose last
-  // bit depends on the CPU it runs on.
+  // acos(c) = sqrt(1 - c) P(c), |error| <= 2e-8 rad: Abramowitz & Stegun 4.4.46. Not the C library's acos,
+  // whose last bit depends on the CPU it runs on.
   const float c = std::min(std::abs(cosine), 1.0F);
   float p = -0.0012624911F;
   p = p * c + 0.0066700901F;
@@ -53,8 +53,8 @@ double mean_angle_to(const Lines& lines, float x, float y, float z) {
 }
 
 bool all_within(const Lines& lines, double units) {
-  // Angles between lines obey the triangle inequality: half the distance to one of them is enough for all. The smallest
-  // cosine has the largest angle; one unit less for what two roundings can add up to.
+  // Angles between lines obey the triangle inequality: half the distance to one of them is enough for all.
+  // The smallest cosine has the largest angle; one unit less for what two roundings can add up to.
   float smallest = 1.0F;
   for (int i = 1; i < lines.count; ++i) smallest = std::min(smallest, std::abs(cosine(lines, 0, i)));
   return 2.0 * (line_angle(smallest) + 1.0) <= units;

@@ -9,8 +9,8 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Turns the plane of axes p and q so that a[p][q] becomes 0 (Golub & Van Loan, Matrix Computations, 8.5.2), and the
-/// columns of v with it.
+/// Turns the plane of axes p and q so that a[p][q] becomes 0 (Golub & Van Loan, Matrix Computations, 8.5.2),
+/// and the columns of v with it.
 void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
   if (a[p][q] == 0) return;
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
@@ -39,16 +39,20 @@ void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
 }  // namespace
 
 Eigen3 eigen_decomposition(const Symmetric3& matrix) {
-  Matrix a{{{matrix.xx, matrix.xy, matrix.xz}, {matrix.xy, matrix.yy, matrix.yz}, {matrix.xz, matrix.yz, matrix.zz}}};
+  Matrix a{{{matrix.xx, matrix.xy, matrix.xz},
+            {matrix.xy, matrix.yy, matrix.yz},
+            {matrix.xz, matrix.yz, matrix.zz}}};
   Matrix v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  // Convergence is quadratic: a 3 x 3 matrix is diagonal to double precision after five sweeps at most; eight are safe.
+  // Convergence is quadratic: a 3 x 3 matrix is diagonal to double precision after five sweeps at most; eight
+  // are safe.
   for (int sweep = 0; sweep < 8 && (a[0][1] != 0 || a[0][2] != 0 || a[1][2] != 0); ++sweep) {
     rotate(a, v, 0, 1);
     rotate(a, v, 0, 2);
     rotate(a, v, 1, 2);
   }
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i][i] > a[j][j]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return a[i][i] > a[j][j]; });
   Eigen3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     result.values[i] = a[order[i]][order[i]];

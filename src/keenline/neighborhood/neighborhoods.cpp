@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <nanoflann.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
-#include <nanoflann.hpp>
 
 #include "keenline/errors.h"
 #include "keenline/memory.h"
@@ -20,7 +20,8 @@ namespace {
 constexpr double far = 0x1p500;  // its square, and the sum of three of them, are finite
 
 /// Exponent e such that coordinates times 2^-e square safely: 0 for all but extreme clouds.
-/// It follows the median magnitude, so that one outlier at 1e300 does not push everything else below the smallest double.
+/// It follows the median magnitude, so that one outlier at 1e300 does not push everything else below the
+/// smallest double.
 int scale_exponent(const std::vector<Point>& positions) {
   constexpr std::size_t sample_size = 4096;
   const std::size_t step = positions.size() / sample_size + 1;
@@ -32,7 +33,8 @@ int scale_exponent(const std::vector<Point>& positions) {
     if (first == nullptr) first = &p;
     // Halves, because the difference of two large coordinates may not be finite.
     double distance = 0;
-    for (int axis = 0; axis < 3; ++axis) distance = std::max(distance, std::abs(p[axis] * 0.5 - (*first)[axis] * 0.5));
+    for (int axis = 0; axis < 3; ++axis)
+      distance = std::max(distance, std::abs(p[axis] * 0.5 - (*first)[axis] * 0.5));
     if (distance > 0) magnitudes.push_back(distance);
   }
   if (magnitudes.empty()) return 0;
@@ -44,9 +46,9 @@ int scale_exponent(const std::vector<Point>& positions) {
 
 /// One stored position per distinct location, and the points that lie there.
 struct Locations {
-  std::vector<Point> positions;            // scaled
-  std::vector<std::uint32_t> first;        // location -> its first entry in members; one more at the end
-  std::vector<std::uint32_t> members;      // point indices, rising within a location
+  std::vector<Point> positions;        // scaled
+  std::vector<std::uint32_t> first;    // location -> its first entry in members; one more at the end
+  std::vector<std::uint32_t> members;  // point indices, rising within a location
 
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return positions.size(); }
   [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const { return positions[i][axis]; }
@@ -128,9 +130,11 @@ Locations distinct_locations(const PointCloud& cloud, const Progress& progress) 
   };
   const MortonCurve curve(positions);
   std::vector<Key> keys(finite.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 16384), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) keys[i] = {curve.place_of(positions[i]), finite[i]};
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 16384),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        keys[i] = {curve.place_of(positions[i]), finite[i]};
+                    });
   positions.clear();
   tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
     if (a.place != b.place) return a.place < b.place;
@@ -153,19 +157,21 @@ Locations distinct_locations(const PointCloud& cloud, const Progress& progress) 
   return locations;
 }
 
-/// The best locations seen so far, for nanoflann, as a total order on (distance, first point of the location).
+/// The best locations seen so far, for nanoflann, as a total order on (distance, first point of the
+/// location).
 class NearestLocations {
  public:
   struct Entry {
-    double distance;        // squared
-    std::uint32_t smallest; // smallest point index there: decides ties
+    double distance;         // squared
+    std::uint32_t smallest;  // smallest point index there: decides ties
     std::uint32_t location;
     bool operator<(const Entry& other) const {
       return distance < other.distance || (distance == other.distance && smallest < other.smallest);
     }
   };
 
-  NearestLocations(const Locations& locations, std::size_t capacity) : locations_(locations), capacity_(capacity) {
+  NearestLocations(const Locations& locations, std::size_t capacity)
+      : locations_(locations), capacity_(capacity) {
     entries_.reserve(capacity + 1);
   }
   void start(std::uint32_t query) {
@@ -179,8 +185,8 @@ class NearestLocations {
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   void sort() {}  // they always are
-  /// A little more than the worst kept distance: nanoflann compares with "less" and sums box distances with rounding,
-  /// and a tie at the border must still be seen.
+  /// A little more than the worst kept distance: nanoflann compares with "less" and sums box distances with
+  /// rounding, and a tie at the border must still be seen.
   [[nodiscard]] double worstDist() const {
     return full() ? entries_.back().distance * (1 + 1e-12) + std::numeric_limits<double>::min()
                   : std::numeric_limits<double>::max();
@@ -203,8 +209,8 @@ class NearestLocations {
   std::vector<Entry> entries_;
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Locations, double, std::uint32_t>,
-                                                 Locations, 3, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<
+    nanoflann::L2_Simple_Adaptor<double, Locations, double, std::uint32_t>, Locations, 3, std::uint32_t>;
 
 /// The points at the found locations in the order (distance, index), at most `count`.
 void expand(const Locations& locations, std::span<const NearestLocations::Entry> entries, std::size_t count,
@@ -218,8 +224,8 @@ void expand(const Locations& locations, std::span<const NearestLocations::Entry>
     for (std::size_t e = begin; e < end; ++e) {
       const std::uint32_t location = entries[e].location;
       const std::uint32_t* const members = locations.members.data();
-      const std::uint32_t last =
-          std::min<std::uint32_t>(locations.first[location + 1], locations.first[location] + static_cast<std::uint32_t>(count));
+      const std::uint32_t last = std::min<std::uint32_t>(
+          locations.first[location + 1], locations.first[location] + static_cast<std::uint32_t>(count));
       neighbors.insert(neighbors.end(), members + locations.first[location], members + last);
     }
     std::sort(neighbors.begin() + static_cast<std::ptrdiff_t>(old_size), neighbors.end());
@@ -232,7 +238,8 @@ void expand(const Locations& locations, std::span<const NearestLocations::Entry>
 
 Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& progress) {
   if (count < min_neighbors || count > max_neighbors)
-    throw InvalidArgument(fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
+    throw InvalidArgument(
+        fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
   const auto capacity = static_cast<std::size_t>(count);
   require_memory(cloud.size() * (capacity * 4 + 8 + 24 + 16 + 3 * 4), "finding neighbours");
   progress.begin("neighborhoods", cloud.size());
@@ -245,7 +252,8 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& p
   result.offsets.assign(cloud.size() + 1, 0);
   const std::size_t distinct = locations.positions.size();
   for (std::size_t location = 0; location < distinct; ++location) {
-    const std::size_t others = locations.members.size() - (locations.first[location + 1] - locations.first[location]);
+    const std::size_t others =
+        locations.members.size() - (locations.first[location + 1] - locations.first[location]);
     for (std::uint32_t m = locations.first[location]; m < locations.first[location + 1]; ++m)
       result.offsets[locations.members[m] + 1] = std::min(others, capacity);
   }
@@ -257,21 +265,23 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& p
   tree.buildIndex();
   progress.check();
 
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distinct, 512), [&](const tbb::blocked_range<std::size_t>& range) {
-    progress.check();
-    NearestLocations nearest(locations, capacity);
-    std::vector<std::uint32_t> neighbors;
-    std::uint64_t points = 0;
-    for (std::size_t location = range.begin(); location < range.end(); ++location) {
-      nearest.start(static_cast<std::uint32_t>(location));
-      tree.findNeighbors(nearest, locations.positions[location].data(), {});
-      expand(locations, nearest.entries(), capacity, neighbors);
-      for (std::uint32_t m = locations.first[location]; m < locations.first[location + 1]; ++m, ++points)
-        std::copy(neighbors.begin(), neighbors.end(),
-                  result.indices.begin() + static_cast<std::ptrdiff_t>(result.offsets[locations.members[m]]));
-    }
-    progress.advance(points);
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, distinct, 512), [&](const tbb::blocked_range<std::size_t>& range) {
+        progress.check();
+        NearestLocations nearest(locations, capacity);
+        std::vector<std::uint32_t> neighbors;
+        std::uint64_t points = 0;
+        for (std::size_t location = range.begin(); location < range.end(); ++location) {
+          nearest.start(static_cast<std::uint32_t>(location));
+          tree.findNeighbors(nearest, locations.positions[location].data(), {});
+          expand(locations, nearest.entries(), capacity, neighbors);
+          for (std::uint32_t m = locations.first[location]; m < locations.first[location + 1]; ++m, ++points)
+            std::copy(
+                neighbors.begin(), neighbors.end(),
+                result.indices.begin() + static_cast<std::ptrdiff_t>(result.offsets[locations.members[m]]));
+        }
+        progress.advance(points);
+      });
   return result;
 }
 
