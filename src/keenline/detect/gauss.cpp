@@ -170,9 +170,9 @@ class GaussMap {
     if (options_.plain || options_.flatness_deg == 0) return false;
     kernels::Symmetric3 tensor;
     for (int i = 0; i < lines.count; ++i) {
-      const double x = lines.x[i];
-      const double y = lines.y[i];
-      const double z = lines.z[i];
+      const auto x = static_cast<double>(lines.x[i]);
+      const auto y = static_cast<double>(lines.y[i]);
+      const auto z = static_cast<double>(lines.z[i]);
       tensor.xx += x * x;
       tensor.xy += x * y;
       tensor.xz += x * z;
