@@ -145,15 +145,16 @@ void print_summary(const DetectArguments& arguments, const DetectReport& report)
 }
 
 void detect(const CLI::App& command, DetectArguments& arguments) {
-  const ThreadLimit threads(arguments.threads);
+  limit_threads(arguments.threads);
   arguments.job.options = parsed_options(command, arguments);
-  const DetectReport report = [&] {
-    TerminalProgress progress(arguments.quiet);
-    return run_detect(arguments.job, progress);
-  }();
-  if (!arguments.quiet) print_notes(arguments.job.input, report.notes);
-  if (arguments.json) print_json_report(arguments, report);
-  else if (!arguments.quiet) print_summary(arguments, report);
+  TerminalProgress progress(arguments.quiet);
+  // Told before the result appears: when nobody can be told, that is a failure, and then nothing is left.
+  (void)run_detect(arguments.job, progress, [&](const DetectReport& report) {
+    progress.clear();
+    if (!arguments.quiet) print_notes(arguments.job.input, report.notes);
+    if (arguments.json) print_json_report(arguments, report);
+    else if (!arguments.quiet) print_summary(arguments, report);
+  });
 }
 
 }  // namespace

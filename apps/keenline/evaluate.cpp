@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -55,7 +56,7 @@ void print_json_evaluation(const EvaluateArguments& arguments, const std::vector
     file["true_negative"] = c.true_negative;
     files.push_back(file);
   }
-  print_json({{"files", files},
+  print_json({{"files", std::move(files)},
               {"macro_mean", json_scores(summary.macro_mean)},
               {"median", json_scores(summary.median)},
               {"micro", json_scores(summary.micro)}});
@@ -81,7 +82,7 @@ void print_evaluation(const EvaluateArguments& arguments, const std::vector<Conf
 }
 
 void evaluate(const EvaluateArguments& arguments) {
-  const ThreadLimit threads(arguments.threads);
+  limit_threads(arguments.threads);
   std::vector<Confusion> confusions;
   {
     TerminalProgress progress(arguments.quiet);

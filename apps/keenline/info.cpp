@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -69,14 +70,14 @@ void print_json_info(const InfoArguments& arguments, const Reading& reading) {
                          {name_of(cloud.position_types[0]), name_of(cloud.position_types[1]),
                           name_of(cloud.position_types[2])}},
                         {"attributes", json_columns(cloud.attributes)},
-                        {"tables", tables},
+                        {"tables", std::move(tables)},
                         {"comments", cloud.comments},
                         {"notes", reading.notes}};
   if (finite > 0) {
     const Box box = bounding_box(cloud);
     object["bounding_box"] = {{"min", box.low}, {"max", box.high}};
   }
-  print_json(object);
+  print_json(std::move(object));
 }
 
 void print_info(const InfoArguments& arguments, const Reading& reading) {
@@ -106,7 +107,7 @@ void print_info(const InfoArguments& arguments, const Reading& reading) {
 }
 
 void info(const InfoArguments& arguments) {
-  const ThreadLimit threads(arguments.threads);
+  limit_threads(arguments.threads);
   const Reading reading = [&] {
     TerminalProgress progress(arguments.quiet);
     return read_cloud(arguments.file, progress);

@@ -1,11 +1,15 @@
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string_view>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
 #include "keenline/errors.h"
+#include "keenline/io/output_file.h"
 
 #include "commands.h"
 #include "terminal.h"
@@ -27,7 +31,41 @@ int fail(int code, std::string_view message) {
   return code;
 }
 
+/// \pre an exception is being handled.
+int fail_with_current_exception() noexcept {
+  try {
+    throw;
+  } catch (const keenline::Cancelled&) {
+    return fail(128 + keenline::cli::interrupting_signal(), "interrupted");
+  } catch (const keenline::InvalidArgument& e) {
+    return fail(wrong_usage, e.what());
+  } catch (const keenline::OutputError& e) {
+    return fail(output_not_written, e.what());
+  } catch (const keenline::OutOfMemory& e) {
+    return fail(out_of_memory, e.what());
+  } catch (const keenline::Error& e) {
+    return fail(input_refused, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(out_of_memory, "out of memory");
+  } catch (const std::exception& e) {  // from below: no thread, no lock, a length beyond all memory
+    return fail(out_of_memory, e.what());
+  }
+}
+
+/// Memory may run out where nothing can be thrown: before main, in a noexcept function of a library, or when
+/// there is no room for the exception itself.
+[[noreturn]] void end_without_unwinding() noexcept {
+  static std::atomic_flag ending;
+  while (ending.test_and_set()) ::pause();  // another thread is at it
+  keenline::remove_unfinished_output();
+  std::_Exit(std::current_exception() ? fail_with_current_exception() : fail(out_of_memory, "out of memory"));
+}
+
+// Before the variables of CLI11 are initialised.
+__attribute__((constructor(101))) void prepare_end() { std::set_terminate(end_without_unwinding); }
+
 int run(int argc, char** argv) {
+  keenline::cli::occupy_closed_descriptors();
   keenline::cli::install_signal_handlers();
   CLI::App app("keenline finds what is sharp in a point cloud: edges, corners, peaks.", "keenline");
   app.set_version_flag("--version", "keenline " KEENLINE_VERSION);
@@ -60,17 +98,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
-  } catch (const keenline::Cancelled&) {
-    return fail(128 + keenline::cli::interrupting_signal(), "interrupted");
-  } catch (const keenline::InvalidArgument& e) {
-    return fail(wrong_usage, e.what());
-  } catch (const keenline::OutputError& e) {
-    return fail(output_not_written, e.what());
-  } catch (const keenline::OutOfMemory& e) {
-    return fail(out_of_memory, e.what());
-  } catch (const std::bad_alloc&) {
-    return fail(out_of_memory, "out of memory");
-  } catch (const std::exception& e) {
-    return fail(input_refused, e.what());
+  } catch (...) {
+    // Without the destructors of TBB: they may wait for ever once memory has run out.
+    std::_Exit(fail_with_current_exception());
   }
 }

@@ -49,7 +49,7 @@ void list_as_json() {
                     {"input", word_for(method.input)},
                     {"options", options}});
   }
-  print_json({{"methods", list}});
+  print_json({{"methods", std::move(list)}});
 }
 
 void list_as_text() {

@@ -63,22 +63,8 @@ Noise parse_noise(std::string_view text) {
   return noise;
 }
 
-void synth(const CLI::App& command, SynthArguments& arguments) {
-  const ThreadLimit threads(arguments.threads);
-  require_writable_extension(arguments.output);
-  SynthOptions& options = arguments.options;
-  options.sampling = parse_sampling(arguments.sampling);
-  options.noise = parse_noise(arguments.noise);
-  if (command.count("--angle") > 0) options.angle_deg = arguments.angle_deg;
-
-  SynthCloud result;
-  std::vector<std::string> notes;
-  {
-    TerminalProgress progress(arguments.quiet);
-    result = synthesize(options, progress);
-    notes = write_cloud(arguments.output, result.cloud, progress);
-  }
-  if (!arguments.quiet) print_notes(arguments.output, notes);
+void print_result(const SynthArguments& arguments, const SynthCloud& result) {
+  const SynthOptions& options = arguments.options;
   if (arguments.json)
     print_json({{"shape", options.shape},
                 {"output", arguments.output},
@@ -94,6 +80,23 @@ void synth(const CLI::App& command, SynthArguments& arguments) {
     print(fmt::format("{}: {} points, spacing {:.6g}, {} true lines, {} corners, {} peaks; in {}\n",
                       options.shape, grouped(result.cloud.size()), result.spacing, result.curves.size(),
                       result.corners.size(), result.peaks.size(), escaped(arguments.output, 4096)));
+}
+
+void synth(const CLI::App& command, SynthArguments& arguments) {
+  limit_threads(arguments.threads);
+  require_writable_extension(arguments.output);
+  SynthOptions& options = arguments.options;
+  options.sampling = parse_sampling(arguments.sampling);
+  options.noise = parse_noise(arguments.noise);
+  if (command.count("--angle") > 0) options.angle_deg = arguments.angle_deg;
+
+  TerminalProgress progress(arguments.quiet);
+  const SynthCloud result = synthesize(options, progress);
+  write_cloud(arguments.output, result.cloud, progress, [&](const std::vector<std::string>& notes) {
+    progress.clear();
+    if (!arguments.quiet) print_notes(arguments.output, notes);
+    print_result(arguments, result);
+  });
 }
 
 std::string shape_list() {

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
-#include <memory>
-#include <optional>
+#include <fcntl.h>
+#include <mutex>
+#include <pthread.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 
 #include "keenline/errors.h"
 #include "keenline/io/output_file.h"
@@ -31,6 +34,9 @@ extern "C" void handle_interruption(int signal) {
 }
 
 extern "C" void handle_vanished_input(int /*signal*/) {
+  // The first thread tells and ends the program, the others wait for that.
+  static std::atomic_flag told;
+  while (told.test_and_set()) ::pause();
   remove_unfinished_output();
   constexpr std::string_view message =
       "keenline: the input shrank or could no longer be read while it was being read\n";
@@ -52,7 +58,51 @@ std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(since_start).count();
 }
 
+struct Meeting {
+  std::mutex mutex;
+  std::condition_variable over;
+  bool is_over = false;
+};
+
+extern "C" void* wait_for_end(void* argument) {
+  Meeting& meeting = *static_cast<Meeting*>(argument);
+  std::unique_lock lock(meeting.mutex);
+  meeting.over.wait(lock, [&] { return meeting.is_over; });
+  return nullptr;
+}
+
+/// Of `wanted` threads beside this one, so many the system gives at once. TBB takes it for granted that it
+/// gets its threads, and cannot go on without.
+int available_threads(int wanted) {
+  Meeting meeting;
+  std::vector<pthread_t> threads(static_cast<std::size_t>(wanted));
+  pthread_attr_t attributes;
+  if (::pthread_attr_init(&attributes) != 0) return 0;
+  constexpr std::size_t stack_of_tbb = std::size_t{4} << 20U;
+  ::pthread_attr_setstacksize(&attributes, stack_of_tbb);
+  std::size_t count = 0;
+  while (count < threads.size() &&
+         ::pthread_create(&threads[count], &attributes, wait_for_end, &meeting) == 0)
+    ++count;
+  ::pthread_attr_destroy(&attributes);
+  {
+    const std::lock_guard lock(meeting.mutex);
+    meeting.is_over = true;
+  }
+  meeting.over.notify_all();
+  for (std::size_t i = 0; i < count; ++i) ::pthread_join(threads[i], nullptr);
+  return static_cast<int>(count);
+}
+
 }  // namespace
+
+void occupy_closed_descriptors() {
+  // In rising order each takes the lowest free number: its own.
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    const bool closed = ::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF;
+    if (closed) (void)::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
 
 void install_signal_handlers() {
   handle(SIGINT, handle_interruption);
@@ -102,24 +152,24 @@ void TerminalProgress::clear() const {
   if (visible_) std::fputs("\r\x1b[K", stderr);
 }
 
-struct ThreadLimit::Control {
-  explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
-  tbb::global_control control;
-};
-
-ThreadLimit::ThreadLimit(int threads) {
+void limit_threads(int threads) {
   if (threads < 0 || threads > 1024)
     throw InvalidArgument(
         fmt::format("--threads: found {}, expected 1 to 1024 (or 0 for all there are)", threads));
-  if (threads == 0) return;
-  control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
+  const int wanted = threads == 0 ? tbb::info::default_concurrency() : threads;
+  const int given = 1 + available_threads(wanted - 1);
+  // Never given up: its destructor may wait for ever for a TBB that once ran out of memory.
+  static const auto* const control =
+      new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(given));
+  (void)control;
 }
 
-ThreadLimit::~ThreadLimit() = default;
-
 void print_notes(std::string_view file, const std::vector<std::string>& notes) {
-  for (const std::string& note : notes)
-    fmt::print(stderr, "keenline: note: {}: {}\n", escaped(file, 4096), escaped(note, 4096));
+  for (const std::string& note : notes) {
+    const std::string line =
+        fmt::format("keenline: note: {}: {}\n", escaped(file, 4096), escaped(note, 4096));
+    std::fwrite(line.data(), 1, line.size(), stderr);  // where nobody listens, nothing is lost
+  }
 }
 
 void print(std::string_view text) {
@@ -128,9 +178,11 @@ void print(std::string_view text) {
   if (!written) throw OutputError("standard output", "cannot be written: " + system_message(errno));
 }
 
-void print_json(const nlohmann::json& object) {
+void print_json(nlohmann::json object) {
   // A file name need not be valid UTF-8, JSON text must.
-  print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  const std::string text = object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  object = nullptr;  // takes memory: that must not end after the text is out
+  print(text);
 }
 
 std::string grouped(std::uint64_t number) {

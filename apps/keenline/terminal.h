@@ -14,6 +14,10 @@
 
 namespace keenline::cli {
 
+/// A closed stdin, stdout or stderr is occupied, so that no file opened later takes its number and receives
+/// what is meant for the terminal; reading and writing it fail as before.
+void occupy_closed_descriptors();
+
 /// From now on SIGINT, SIGTERM and SIGHUP ask the work to stop (a second one ends the program at once), a
 /// file that shrinks while it is read ends it with exit code 1, and a file size limit or a closed pipe is a
 /// failed write. Temporary output files are removed in every case.
@@ -30,10 +34,11 @@ class TerminalProgress : public Progress {
   void begin(std::string_view stage, std::uint64_t total) override;
   void advance(std::uint64_t units) override;
   [[nodiscard]] bool cancelled() const override { return interrupting_signal() != 0; }
+  /// Removes the bar, so that something else can be printed.
+  void clear() const;
 
  private:
   void draw() const;
-  void clear() const;
 
   bool visible_;
   std::string stage_;
@@ -42,26 +47,16 @@ class TerminalProgress : public Progress {
   std::atomic<std::int64_t> next_drawing_ms_{0};
 };
 
-/// Uses so many threads for everything as long as it lives; 0 = all there are.
-class ThreadLimit {
- public:
-  /// \throw InvalidArgument unless 0 <= threads <= 1024
-  explicit ThreadLimit(int threads);
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
-  ~ThreadLimit();
-
- private:
-  struct Control;
-  std::unique_ptr<Control> control_;
-};
+/// From now on so many threads are used for everything, fewer where the system does not give them;
+/// 0 = all there are. \throw InvalidArgument unless 0 <= threads <= 1024
+void limit_threads(int threads);
 
 /// "keenline: note: …", a line each, on stderr.
 void print_notes(std::string_view file, const std::vector<std::string>& notes);
 
 /// Text to stdout. \throw OutputError when stdout does not take it (full disk, closed pipe).
 void print(std::string_view text);
-void print_json(const nlohmann::json& object);
+void print_json(nlohmann::json object);
 
 /// 1234567 as "1,234,567".
 [[nodiscard]] std::string grouped(std::uint64_t number);

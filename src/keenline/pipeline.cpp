@@ -48,7 +48,8 @@ void require_writable_folder(const std::string& output) {
 
 }  // namespace
 
-DetectReport run_detect(const DetectJob& job, Progress& progress) {
+DetectReport run_detect(const DetectJob& job, Progress& progress,
+                        const std::function<void(const DetectReport&)>& before_commit) {
   const Method& method = find_method(job.method);
   DetectReport report;
   report.options = resolve_options(method, job.options);
@@ -66,10 +67,6 @@ DetectReport run_detect(const DetectJob& job, Progress& progress) {
   report.labels = method.detect(reading.cloud, neighborhoods, report.options, progress);
   report.times.detect_s = stage.lap_s();
   const std::vector<std::string> replaced = add_labels(reading.cloud, report.labels);
-  const std::vector<std::string> writing_notes = write_cloud(job.output, reading.cloud, progress);
-  report.times.write_s = stage.lap_s();
-  report.times.total_s = total.lap_s();
-
   report.format = reading.format;
   report.encoding = reading.encoding;
   report.points = reading.cloud.size();
@@ -77,7 +74,13 @@ DetectReport run_detect(const DetectJob& job, Progress& progress) {
   report.notes = std::move(reading.notes);
   for (const std::string& name : replaced)
     report.notes.push_back(fmt::format("the input's attribute {} is replaced", quoted(name)));
-  report.notes.insert(report.notes.end(), writing_notes.begin(), writing_notes.end());
+  const auto complete_report = [&](const std::vector<std::string>& writing_notes) {
+    report.notes.insert(report.notes.end(), writing_notes.begin(), writing_notes.end());
+    report.times.write_s = stage.lap_s();
+    report.times.total_s = total.lap_s();
+    if (before_commit) before_commit(report);
+  };
+  write_cloud(job.output, reading.cloud, progress, complete_report);
   return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,11 @@ struct DetectReport {
   StageTimes times;
 };
 
-/// \throw InvalidArgument, InputError, OutOfMemory, std::bad_alloc, OutputError or Cancelled; nothing is then
-/// left at the output.
-[[nodiscard]] DetectReport run_detect(const DetectJob& job, Progress& progress = no_progress());
+/// `before_commit` is called with the report when all is written and only the renaming of the output is left.
+/// \throw InvalidArgument, InputError, OutOfMemory, std::bad_alloc, OutputError, Cancelled or what
+/// before_commit throws; the output is then as it was before.
+[[nodiscard]] DetectReport run_detect(const DetectJob& job, Progress& progress = no_progress(),
+                                      const std::function<void(const DetectReport&)>& before_commit = {});
 
 /// Adds the attributes feature (0/1), kind, score and, where the method counts them, clusters; replaces those
 /// of the same names and returns the names it replaced. \throw InvalidArgument unless labels.size() ==

@@ -29,6 +29,15 @@ TEST(Formats, ContentDecidesWhateverTheNameSays) {
   EXPECT_EQ(format_of("a.dat", "solid x\nfacet normal 0 0 1\nouter loop\n"), "stl");
 }
 
+TEST(Formats, ABinaryStlIsKnownByItsSizeWhateverItsTitle) {
+  for (const std::string title : {"OFF to STL", "VERSION 2", "LASF", "solid part", "# .PCD"}) {
+    std::string stl = title;
+    stl.resize(84 + 50);
+    stl[80] = 1;
+    EXPECT_EQ(format_of("a.dat", stl), "stl") << title;
+  }
+}
+
 TEST(Formats, TheExtensionDecidesWhereContentDoesNot) {
   EXPECT_EQ(format_of("a.ply", "1 2 3\n4 5 6\n"), "ply");  // and the PLY reader refuses it
   EXPECT_EQ(format_of("dir.ply/A.XYZ", "1 2 3\n"), "xyz");

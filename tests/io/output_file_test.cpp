@@ -31,6 +31,18 @@ TEST(OutputFile, AppearsWholeOnCommit) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
+TEST(OutputFile, StoredIsNotYetThere) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("out.bin", "old");
+  OutputFile file(path);
+  file.write("new");
+  file.store();
+  EXPECT_EQ(TemporaryFolder::read(path), "old");
+  file.commit();
+  EXPECT_EQ(TemporaryFolder::read(path), "new");
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
 TEST(OutputFile, LeavesNothingWithoutCommit) {
   const TemporaryFolder folder;
   folder.write("old", "old");

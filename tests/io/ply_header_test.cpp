@@ -139,11 +139,11 @@ TEST(PlyHeader, IsBounded) {
   const std::string start = "ply\nformat ascii 1.0\ncomment ";
   const std::string end = "\nend_header\n";
   EXPECT_EQ(read(start + std::string(500000, 'c') + end).comments[0].size(), 500000U);
-  expect_refused(start + std::string(longest_ply_header, 'c') + end, "line 3", "more than 1 MiB",
+  expect_refused(start + std::string(longest_ply_header, 'c') + end, "line 3", "more than 32 MiB",
                  "'end_header'");
   std::string lines = "ply\nformat ascii 1.0\n";
   while (lines.size() < longest_ply_header) lines += "comment again\n";
-  expect_refused(lines + "end_header\n", "more than 1 MiB");
+  expect_refused(lines + "end_header\n", "more than 32 MiB");
 }
 
 }  // namespace

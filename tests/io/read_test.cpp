@@ -24,6 +24,16 @@ TEST(Read, NamesTheFileInErrors) {
   test::expect_error<InputError>([&] { (void)read_cloud(path); }, path + ": line 2", "'five'");
 }
 
+TEST(Read, RefusesFilesThatSayNothing) {
+  const test::TemporaryFolder folder;
+  for (const char* extension : {"ply", "pcd", "las", "off", "obj", "stl", "xyz", "dat"}) {
+    const std::string path = folder.write(std::string("a.") + extension, "");
+    test::expect_error<InputError>([&] { (void)read_cloud(path); }, path + ": byte 0", "an empty file");
+  }
+  const std::string path = folder.write("a.obj", "\xEF\xBB\xBF \t\r\n\n");
+  test::expect_error<InputError>([&] { (void)read_cloud(path); }, path + ": byte 0", "nothing but blanks");
+}
+
 class Stopped : public Progress {
  public:
   [[nodiscard]] bool cancelled() const override { return true; }

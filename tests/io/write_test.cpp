@@ -47,5 +47,19 @@ TEST(Write, AFailureLeavesNothing) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
+TEST(Write, WhatIsDoneBeforeTheCommitCanPreventIt) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("a.ply", "old");
+  const auto fail = [&](const std::vector<std::string>&) {
+    EXPECT_EQ(folder.entries(), 2U);
+    EXPECT_EQ(test::TemporaryFolder::read(path), "old");
+    throw OutputError("standard output", "cannot be written");
+  };
+  test::expect_error<OutputError>([&] { write_cloud(path, small_cloud(), no_progress(), fail); },
+                                  "standard output");
+  EXPECT_EQ(folder.entries(), 1U);
+  EXPECT_EQ(test::TemporaryFolder::read(path), "old");
+}
+
 }  // namespace
 }  // namespace keenline

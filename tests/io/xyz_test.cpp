@@ -212,8 +212,8 @@ TEST(Xyz, RefusesNamesThatAreThereTwice) {
 }
 
 TEST(Xyz, RefusesALineWithoutEnd) {
-  expect_refused(std::string(3U << 20U, 'a'), "line 1", "a line of more than 1 MiB");
-  expect_refused("1 2 3" + std::string(3U << 20U, '\0'), "line 1", "a zero byte");
+  expect_refused(std::string(33U << 20U, 'a'), "line 1", "a line of more than 32 MiB");
+  expect_refused("1 2 3" + std::string(33U << 20U, '\0'), "line 1", "a zero byte");
 }
 
 TEST(Xyz, MatchesWhatLooksLikeNumbers) {

@@ -1,6 +1,7 @@
 #include "keenline/neighborhood/neighborhoods.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -117,6 +118,21 @@ TEST(Neighborhoods, DoNotDependOnScaleOrOnOneFarPoint) {
   }
 }
 
+TEST(Neighborhoods, SpanClustersOfVeryDifferentSizeAndPlace) {
+  const PointCloud cloud = random_cloud(300, 6);
+  const Neighborhoods expected = find_neighborhoods(cloud, 16);
+  PointCloud both = cloud;
+  for (const Point& p : cloud.positions) both.positions.push_back({1e200, p[1], p[2]});
+  PointCloud tiny = cloud;
+  for (Point& p : tiny.positions)
+    for (double& c : p) c *= 0x1p-660;
+  tiny.positions.insert(tiny.positions.end(), cloud.positions.begin(), cloud.positions.end());
+  for (const PointCloud& two : {both, tiny}) {
+    const Neighborhoods found = find_neighborhoods(two, 16);
+    EXPECT_TRUE(std::equal(expected.indices.begin(), expected.indices.end(), found.indices.begin()));
+  }
+}
+
 TEST(Neighborhoods, LoseNothingFarFromTheOrigin) {
   // Millimetres at ten thousand kilometres: neighbouring doubles are 2 nm apart there, neighbouring floats a
   // metre.
@@ -151,6 +167,27 @@ class Stopped : public Progress {
 TEST(Neighborhoods, CanBeCancelled) {
   Stopped progress;
   EXPECT_THROW((void)find_neighborhoods(random_cloud(100, 10), 16, progress), Cancelled);
+}
+
+/// Gives up at the n-th question whether to.
+class Patient : public Progress {
+ public:
+  explicit Patient(int questions) : questions_(questions) {}
+  void advance(std::uint64_t /*units*/) override { advanced = true; }
+  [[nodiscard]] bool cancelled() const override { return --questions_ <= 0; }
+  std::atomic<bool> advanced = false;
+
+ private:
+  mutable std::atomic<int> questions_;
+};
+
+TEST(Neighborhoods, CanBeCancelledBeforeTheFirstQuery) {
+  const PointCloud cloud = random_cloud(20000, 11);
+  for (const int questions : {2, 20, 100}) {  // in the sort and while the tree grows
+    Patient progress(questions);
+    EXPECT_THROW((void)find_neighborhoods(cloud, 16, progress), Cancelled);
+    EXPECT_FALSE(progress.advanced);
+  }
 }
 
 }  // namespace

@@ -29,14 +29,16 @@ constexpr std::array<std::string_view, 1> stl_extensions{"stl"};
 constexpr std::array<std::string_view, 1> obj_extensions{"obj"};
 constexpr std::array<std::string_view, 6> xyz_extensions{"xyz", "txt", "csv", "asc", "pts", "pwn"};
 
+// A binary STL is known by its size; its title may begin with any word, "OFF" and "VERSION" too. So it comes
+// first.
 constexpr std::array table{
+    Format{"stl", "Stereolithography: ascii and binary", stl_extensions, match_stl, read_stl},
     Format{"ply", "Polygon file format: ascii, binary little and big endian", ply_extensions, match_ply,
            read_ply},
     Format{"pcd", "Point Cloud Library: ascii, binary, binary_compressed", pcd_extensions, match_pcd,
            read_pcd},
     Format{"las", "LAS 1.0 to 1.4, uncompressed, point formats 0 to 10", las_extensions, match_las, read_las},
     Format{"off", "Object file format (OFF, NOFF, COFF, …)", off_extensions, match_off, read_off},
-    Format{"stl", "Stereolithography: ascii and binary", stl_extensions, match_stl, read_stl},
     Format{"obj", "Wavefront OBJ", obj_extensions, match_obj, read_obj},
     Format{"xyz", "Delimited text: XYZ, TXT, CSV", xyz_extensions, match_xyz, read_xyz},
 };

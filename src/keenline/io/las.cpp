@@ -14,6 +14,7 @@
 #include "keenline/io/records.h"
 #include "keenline/io/source.h"
 #include "keenline/io/text.h"
+#include "keenline/memory.h"
 #include "keenline/progress.h"
 
 namespace keenline {
@@ -71,6 +72,7 @@ Column interpreted(const LasField& field, Column stored, Progress& progress) {
 
 void read_points(const Source& source, const LasHeader& header, const std::vector<LasField>& fields,
                  PointCloud& cloud, Progress& progress) {
+  require_memory(header.point_count * (header.record_length + sizeof(Point)), "reading points");
   std::vector<Column> coordinates;
   std::vector<Column> columns;
   std::vector<RecordField> record;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
@@ -91,16 +92,25 @@ int sync_descriptor(int descriptor) {
   return result;
 }
 
+/// False when one of them is not there, or the file system cannot do so.
+bool swap_files(const std::string& a, const std::string& b) {
+#ifdef RENAME_EXCHANGE
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+#else
+  return a.empty() && b.empty();
+#endif
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   const Target target = resolve_target(path);
   target_ = target.path;
+  folder_ = folder_of(target_);
   buffer_.reserve(buffer_size);
   // A name of its own length, so that a target with the longest allowed name can be written.
-  const std::string folder = folder_of(target_);
   for (int attempt = 0;; ++attempt) {
-    temporary_ = fmt::format("{}/.keenline-{}-{}.tmp", folder, ::getpid(), attempt);
+    temporary_ = fmt::format("{}/.keenline-{}-{}.tmp", folder_, ::getpid(), attempt);
     remember_unfinished(temporary_);
     do descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     while (descriptor_ < 0 && errno == EINTR);
@@ -148,33 +158,44 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
-void OutputFile::commit() {
+void OutputFile::store() {
   flush();
   if (sync_descriptor(descriptor_) != 0) fail(path_, "cannot be flushed to the disk", errno);
   const int closing = ::close(descriptor_);
   descriptor_ = -1;
   if (closing != 0 && errno != EINTR) fail(path_, "cannot be written", errno);
+}
 
+void OutputFile::commit() {
+  if (descriptor_ >= 0) store();
   // Opened before the rename, so that what can fail early fails while the old target still stands.
   int folder = -1;
-  do folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  do folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   while (folder < 0 && errno == EINTR);
   if (folder < 0) fail(path_, "its folder cannot be opened", errno);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    const int error_number = errno;
+  try {
+    publish(folder);
+  } catch (...) {
     ::close(folder);
-    fail(path_, "cannot be written", error_number);
+    throw;
   }
-  forget_unfinished(temporary_);
-  temporary_.clear();
-  const int syncing = sync_descriptor(folder);
-  const int error_number = errno;
   ::close(folder);
+}
+
+/// Swaps the new file with an old target, so that this can come back. \throw OutputError.
+void OutputFile::publish(int folder) {
+  const bool swapped = swap_files(temporary_, target_);
+  if (!swapped && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot be written", errno);
   // Some file systems cannot sync a folder at all (EINVAL): they give no promise that could be broken.
-  if (syncing != 0 && error_number != EINVAL) {
-    ::unlink(target_.c_str());  // a failed run leaves nothing that looks like a result
+  if (sync_descriptor(folder) != 0 && errno != EINVAL) {
+    const int error_number = errno;
+    // A failed run leaves nothing that looks like a result; where no swap is possible the old one is lost.
+    if (!swapped || !swap_files(temporary_, target_)) ::unlink(target_.c_str());
     fail(path_, "its folder cannot be flushed to the disk", error_number);
   }
+  if (swapped) ::unlink(temporary_.c_str());
+  forget_unfinished(temporary_);
+  temporary_.clear();
 }
 
 void remove_unfinished_output() noexcept {

@@ -6,8 +6,8 @@
 
 namespace keenline {
 
-/// A file that appears whole or not at all: bytes go to a temporary file beside the target; commit() flushes
-/// it to the disk and renames it. Without commit() the target is as it was before.
+/// A file that appears whole or not at all: bytes go to a temporary file beside the target, which store()
+/// flushes to the disk and commit() renames. Without commit() the target is as it was before.
 class OutputFile : public Sink {
  public:
   /// A target that is a symbolic link is written where the link points.
@@ -18,17 +18,22 @@ class OutputFile : public Sink {
   ~OutputFile() override;
 
   void write(std::string_view bytes) override;
+  /// Brings every byte to the disk; nothing can be written after it. \throw OutputError.
+  void store();
+  /// store(), unless that is done, and the target is the new file.
   /// \throw OutputError; the target is then as it was before.
   void commit();
 
  private:
   void flush();
+  void publish(int folder);
 
   std::string path_;       // as the caller named it, for messages
   std::string target_;     // with a symbolic link followed
+  std::string folder_;     // of the target
   std::string temporary_;  // empty once committed or removed
   std::string buffer_;
-  int descriptor_ = -1;
+  int descriptor_ = -1;  // none once stored
 };
 
 /// Removes the temporary file of an OutputFile that is open just now. Safe to call from a signal handler;

@@ -14,8 +14,10 @@
 #include "keenline/io/records.h"
 #include "keenline/io/source.h"
 #include "keenline/io/text.h"
+#include "keenline/io/text_lines.h"
 #include "keenline/io/text_rows.h"
 #include "keenline/io/text_split.h"
+#include "keenline/memory.h"
 #include "keenline/progress.h"
 
 namespace keenline {
@@ -82,6 +84,7 @@ class Body {
   }
 
   std::vector<Column> empty_columns() const {
+    require_memory(header_.points * (header_.record_bytes + sizeof(Point)), "reading points");
     std::vector<Column> columns;
     for (const PcdField& field : header_.fields)
       if (!field.is_padding()) columns.push_back(empty_column(field, header_.points));
@@ -98,7 +101,8 @@ class Body {
     }
     RowFormat format;
     for (const PcdField& field : header_.fields) {
-      format.names.insert(format.names.end(), field.count, field.name);
+      // For messages only; a long name, as often as the longest list has numbers, would take much memory.
+      format.names.insert(format.names.end(), field.count, field.name.substr(0, 64));
       format.types.insert(format.types.end(), field.count,
                           is_axis(field.name) ? parsed_coordinate_type(field.type) : field.type);
     }
@@ -108,7 +112,7 @@ class Body {
   }
 
   void expect_end_of_rows(std::size_t consumed, std::uint64_t next_line) const {
-    LineReader lines(bytes_.substr(consumed), next_line);
+    TextLines lines(source_, bytes_.substr(consumed), next_line, progress_);
     for (std::string_view line; lines.next(line);) {
       if (!trimmed(line).empty()) {
         throw InputError(source_.name, Place::line(lines.number()), quoted(line),

@@ -142,6 +142,7 @@ Reading read_ply(const Source& source, Progress& progress) {
   require_points(source, header);
   const std::array<ScalarType, 3> declared = take_coordinate_types(header);
   PlyBody body(source, header, progress);
+  body.require_sizes();
   std::vector<PlyRows> elements;
   for (const PlyElement& element : header.elements) elements.push_back(body.read(element));
   body.expect_end();

@@ -15,6 +15,7 @@
 #include "keenline/io/text.h"
 #include "keenline/io/text_lines.h"
 #include "keenline/io/text_rows.h"
+#include "keenline/memory.h"
 #include "keenline/progress.h"
 
 namespace keenline {
@@ -25,6 +26,14 @@ std::size_t fixed_size(const PlyElement& element) {
   std::size_t size = 0;
   for (const PlyProperty& property : element.properties)
     size += size_of(property.count_type.value_or(property.type));
+  return size;
+}
+
+/// What the columns take, without the values of lists.
+std::size_t memory_per_row(const PlyElement& element) {
+  std::size_t size = element.name == "vertex" ? sizeof(Point) : 0;
+  for (const PlyProperty& property : element.properties)
+    size += property.count_type ? sizeof(std::uint64_t) : size_of(property.type);
   return size;
 }
 
@@ -209,9 +218,14 @@ PlyBody::PlyBody(const Source& source, const PlyHeader& header, Progress& progre
 std::string_view PlyBody::rest() const { return source_.bytes.substr(position_); }
 
 PlyRows PlyBody::read(const PlyElement& element) {
-  require_room(element);
+  require_room(element, position_);
   PlyRows rows{{}, position_, line_};
   const bool ascii = header_.encoding == PlyEncoding::Ascii;
+  // What a text holds is known only when it has been looked through.
+  if (!ascii) {
+    require_memory(element.count * memory_per_row(element),
+                   fmt::format("reading element {}", quoted(element.name)));
+  }
   if (element.count == 0) {
     std::vector<ColumnBuilder> empty = builders_for(element);
     rows.table = finished(element, empty);
@@ -223,7 +237,19 @@ PlyRows PlyBody::read(const PlyElement& element) {
   return rows;
 }
 
-void PlyBody::require_room(const PlyElement& element) const {
+void PlyBody::require_sizes() const {
+  if (header_.encoding == PlyEncoding::Ascii) return;
+  std::size_t end = position_;
+  bool lists = false;
+  for (const PlyElement& element : header_.elements) {
+    require_room(element, end);
+    end += element.count * fixed_size(element);
+    lists = lists || (element.count > 0 && element.has_lists());
+  }
+  if (!lists) expect_end_at(end);
+}
+
+void PlyBody::require_room(const PlyElement& element, std::size_t position) const {
   if (element.count == 0) return;
   if (element.properties.empty()) {
     throw InputError(
@@ -236,7 +262,7 @@ void PlyBody::require_room(const PlyElement& element) const {
   // its end.
   const std::size_t smallest =
       std::max<std::size_t>(1, ascii ? 2 * element.properties.size() : fixed_size(element));
-  const std::size_t room = (rest().size() + (ascii ? 1 : 0)) / smallest;
+  const std::size_t room = (source_.bytes.size() - position + (ascii ? 1 : 0)) / smallest;
   if (element.count <= room) return;
   throw InputError(source_.name, Place::byte(source_.bytes.size()),
                    fmt::format("the end of the file, with room for at most {} rows of element {}", room,
@@ -308,24 +334,26 @@ Table PlyBody::read_binary_lists(const PlyElement& element) {
   return finished(element, builders);
 }
 
-void PlyBody::expect_end() const {
+void PlyBody::expect_end() const { expect_end_at(position_); }
+
+void PlyBody::expect_end_at(std::size_t end) const {
   // Writers may fill up to a multiple of eight bytes; any point more would take more.
   constexpr std::size_t longest_padding = 7;
   constexpr std::size_t bytes_per_check = std::size_t{1} << 20;
   std::size_t zeros = 0;
-  for (std::size_t i = position_; i < source_.bytes.size(); ++i) {
-    if ((i - position_) % bytes_per_check == 0) progress_.check();
+  for (std::size_t i = end; i < source_.bytes.size(); ++i) {
+    if ((i - end) % bytes_per_check == 0) progress_.check();
     const char c = source_.bytes[i];
     if (c == '\0' ? ++zeros <= longest_padding : (c == ' ' || (c >= '\t' && c <= '\r'))) continue;
-    throw InputError(source_.name, place_after_rows(i),
-                     fmt::format("{} more bytes than the header declares", source_.bytes.size() - position_),
+    throw InputError(source_.name, place_after_rows(end, i),
+                     fmt::format("{} more bytes than the header declares", source_.bytes.size() - end),
                      "the end of the file");
   }
 }
 
-Place PlyBody::place_after_rows(std::size_t byte) const {
-  if (header_.encoding != PlyEncoding::Ascii) return Place::byte(position_);
-  LineReader lines(source_.bytes.substr(position_, byte + 1 - position_), line_);
+Place PlyBody::place_after_rows(std::size_t end, std::size_t byte) const {
+  if (header_.encoding != PlyEncoding::Ascii) return Place::byte(end);
+  LineReader lines(source_.bytes.substr(end, byte + 1 - end), line_);
   std::string_view line;
   while (lines.next(line)) continue;
   return Place::line(lines.number());

@@ -26,6 +26,10 @@ class PlyBody {
   /// Refers to all three; they must outlive it.
   PlyBody(const Source& source, const PlyHeader& header, Progress& progress);
 
+  /// Where the header alone tells how long the file must be (or must be at least), before any row is read.
+  /// \throw InputError when it is not.
+  void require_sizes() const;
+
   /// The rows of the next element, which are to be asked for in the order of the header.
   /// \throw InputError when the rest of the file cannot hold them or they are not exactly understood;
   /// Cancelled.
@@ -38,13 +42,15 @@ class PlyBody {
   [[nodiscard]] Place place_of(const PlyRows& rows, std::uint64_t row) const;
 
  private:
-  void require_room(const PlyElement& element) const;
+  /// \param position of its first row
+  void require_room(const PlyElement& element, std::size_t position) const;
+  void expect_end_at(std::size_t end) const;
   Table read_ascii_scalars(const PlyElement& element);
   Table read_ascii_lists(const PlyElement& element);
   Table read_binary_scalars(const PlyElement& element);
   Table read_binary_lists(const PlyElement& element);
   /// Line in which `byte` stands; where the rows end, when the file has no lines.
-  [[nodiscard]] Place place_after_rows(std::size_t byte) const;
+  [[nodiscard]] Place place_after_rows(std::size_t end, std::size_t byte) const;
   [[nodiscard]] std::string_view rest() const;
 
   const Source& source_;

@@ -64,7 +64,7 @@ class HeaderParser {
     if (!lines_.next(line_)) refuse(text_.empty() ? "an empty file" : "the end of the file", expected_line_);
     // What fills all that is looked at may be cut off anywhere.
     if (lines_.rest().empty() && text_.size() == longest_ply_header)
-      refuse("a header of more than 1 MiB", expected_line_);
+      refuse("a header of more than 32 MiB", expected_line_);
     expected_line_ = "'end_header'";
     if (line_.find('\0') != std::string_view::npos) refuse("a zero byte", "a line of the header");
     rest_ = line_;

@@ -44,14 +44,14 @@ struct PlyHeader {
   std::uint64_t lines = 0;            ///< lines up to the first row
 };
 
-/// \throw InputError for anything that is not exactly understood, or when the header does not end within 1
-/// MiB.
+/// \throw InputError for anything that is not exactly understood, or when the header is longer than
+/// longest_ply_header.
 [[nodiscard]] PlyHeader read_ply_header(const Source& source);
 
 /// The word that PLY headers have for a type: "uchar", "float", … \pre not a 64-bit integer
 [[nodiscard]] std::string_view ply_type_name(ScalarType type);
 
 /// Longest header that is read.
-inline constexpr std::size_t longest_ply_header = std::size_t{1} << 20;
+inline constexpr std::size_t longest_ply_header = std::size_t{32} << 20;
 
 }  // namespace keenline

@@ -20,6 +20,7 @@
 #include "keenline/io/source.h"
 #include "keenline/io/text.h"
 #include "keenline/io/text_lines.h"
+#include "keenline/memory.h"
 #include "keenline/progress.h"
 
 namespace keenline {
@@ -144,6 +145,10 @@ bool is_binary(std::string_view bytes) {
 
 Reading read_binary(const Source& source, Progress& progress) {
   progress.advance(header_size);
+  // A triangle's corners and attribute; its points may be shared.
+  constexpr std::size_t triangle_memory =
+      3 * sizeof(std::uint32_t) + sizeof(std::uint64_t) + sizeof(std::uint16_t);
+  require_memory((source.bytes.size() - header_size) / facet_size * triangle_memory, "reading triangles");
   PointMerger merger(source, progress);
   FaceBuilder faces;
   std::vector<std::uint16_t> attributes;
@@ -272,7 +277,7 @@ void AsciiReader::expect(Words& words, std::string_view keyword) {
 
 /// Whether the first line that is not blank begins with the word "solid".
 bool begins_with_solid(std::string_view bytes) {
-  std::string_view text = without_bom(bytes);
+  std::string_view text = without_bom(bytes.substr(0, size_of_signature));
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   return is_keyword(text.substr(0, text.find_first_of(" \t\r\n")), "solid");
 }

@@ -20,6 +20,7 @@
 #include "keenline/io/source.h"
 #include "keenline/io/text.h"
 #include "keenline/io/text_split.h"
+#include "keenline/memory.h"
 #include "keenline/progress.h"
 
 namespace keenline {
@@ -425,6 +426,9 @@ Rows read_rows(const Source& source, std::string_view text, std::uint64_t first_
   Rows rows;
   rows.count = scan.rows;
   const std::vector<ScalarType> types = column_types(scan, format, line_end, progress, rows.notes);
+  std::size_t row_size = 0;
+  for (const ScalarType type : types) row_size += size_of(type);
+  require_memory(scan.rows * row_size, "reading rows");
   for (std::size_t c = 0; c < types.size(); ++c)
     rows.columns.emplace_back(format.names[c], types[c], scan.rows);
   const RowParser parser(source, format, line_end, rows.columns);

@@ -36,11 +36,15 @@ const Writer& find_writer(std::string_view path) {
 
 void require_writable_extension(std::string_view path) { (void)find_writer(path); }
 
-std::vector<std::string> write_cloud(const std::string& path, const PointCloud& cloud, Progress& progress) {
+std::vector<std::string> write_cloud(const std::string& path, const PointCloud& cloud, Progress& progress,
+                                     const BeforeCommit& before_commit) {
   const Writer& writer = find_writer(path);
   progress.begin("writing", cloud.size());
   OutputFile file(path);
   std::vector<std::string> notes = writer.write(cloud, file, progress);
+  file.store();
+  progress.check();
+  if (before_commit) before_commit(notes);
   file.commit();
   return notes;
 }

@@ -21,7 +21,7 @@
 namespace keenline {
 namespace {
 
-constexpr std::size_t longest_head_line = 1U << 20U;
+constexpr std::size_t longest_head_line = 32U << 20U;
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
 struct Line {
@@ -162,7 +162,7 @@ class HeadReader {
     if (window.size() < rest_.size() && window.find(line_end_) == std::string_view::npos) {
       throw InputError(
           source_.name, Place::line(number_),
-          window.find('\0') == std::string_view::npos ? "a line of more than 1 MiB" : "a zero byte", "text");
+          window.find('\0') == std::string_view::npos ? "a line of more than 32 MiB" : "a zero byte", "text");
     }
     const std::string_view line = take_line(rest_, line_end_);
     if (line.find('\0') != std::string_view::npos)

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
+// When memory runs out nanoflann prints before it throws std::bad_alloc; this library never prints.
+#define fprintf(...) static_cast<void>(0)
 #include <nanoflann.hpp>
+#undef fprintf
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
@@ -19,10 +23,8 @@ namespace {
 
 constexpr double far = 0x1p500;  // its square, and the sum of three of them, are finite
 
-/// Exponent e such that coordinates times 2^-e square safely: 0 for all but extreme clouds.
-/// It follows the median magnitude, so that one outlier at 1e300 does not push everything else below the
-/// smallest double.
-int scale_exponent(const std::vector<Point>& positions) {
+/// Exponent of the median distance from the first finite point, of a sample; 0 when all coincide.
+int median_exponent(const std::vector<Point>& positions) {
   constexpr std::size_t sample_size = 4096;
   const std::size_t step = positions.size() / sample_size + 1;
   std::vector<double> magnitudes;
@@ -40,8 +42,27 @@ int scale_exponent(const std::vector<Point>& positions) {
   if (magnitudes.empty()) return 0;
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  const int exponent = std::ilogb(*middle) + 1;
-  return std::abs(exponent) < 200 ? 0 : exponent;
+  return std::ilogb(*middle) + 1;
+}
+
+/// Exponent e such that distances of coordinates times 2^-e square safely: 0 for all but extreme clouds.
+int scale_exponent(const std::vector<Point>& positions) {
+  double largest = 0;
+  double smallest = far;
+  for (const Point& p : positions) {
+    if (!is_finite(p)) continue;
+    for (const double coordinate : p) {
+      largest = std::max(largest, std::abs(coordinate));
+      if (coordinate != 0) smallest = std::min(smallest, std::abs(coordinate));
+    }
+  }
+  // Different doubles of at least 2^-400 differ by 2^-452, which squares to a normal number.
+  if (largest == 0 || (largest <= far && smallest >= 0x1p-400)) return 0;
+  // All the room that squares have is below the largest coordinate; but one outlier at 1e308 must not push
+  // everything else out of it: then the outlier is clamped.
+  constexpr int highest = 500;
+  constexpr int lowest_median = -350;
+  return std::min(std::ilogb(largest) + 1 - highest, median_exponent(positions) - lowest_median);
 }
 
 /// One stored position per distinct location, and the points that lie there.
@@ -50,12 +71,8 @@ struct Locations {
   std::vector<std::uint32_t> first;    // location -> its first entry in members; one more at the end
   std::vector<std::uint32_t> members;  // point indices, rising within a location
 
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return positions.size(); }
+  // What nanoflann's distances call.
   [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const { return positions[i][axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;  // nanoflann computes it
-  }
 };
 
 Point scaled(const Point& p, int exponent) {
@@ -124,6 +141,7 @@ Locations distinct_locations(const PointCloud& cloud, const Progress& progress) 
     }
   progress.check();
 
+  constexpr std::uint32_t points_per_check = 256;
   struct Key {
     std::uint64_t place;
     std::uint32_t point;
@@ -137,6 +155,7 @@ Locations distinct_locations(const PointCloud& cloud, const Progress& progress) 
                     });
   positions.clear();
   tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    if (a.point % points_per_check == 0) progress.check();
     if (a.place != b.place) return a.place < b.place;
     const Point& p = cloud.positions[a.point];
     const Point& q = cloud.positions[b.point];
@@ -209,8 +228,35 @@ class NearestLocations {
   std::vector<Entry> entries_;
 };
 
+/// What nanoflann builds its tree from, on one thread; that takes seconds for a large cloud and can be
+/// cancelled here only.
+class TreeSource {
+ public:
+  TreeSource(const Locations& locations, const Progress& progress)
+      : locations_(locations), progress_(progress) {}
+  /// Distances take the positions from there, without the detour.
+  operator const Locations&() const { return locations_; }  // NOLINT(google-explicit-constructor)
+
+  // What nanoflann calls.
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return locations_.positions.size(); }
+  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    constexpr unsigned calls_per_check = 4096;
+    if (++calls_ % calls_per_check == 0) progress_.check();
+    return locations_.kdtree_get_pt(i, axis);
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box& /*box*/) const {
+    return false;  // nanoflann computes it
+  }
+
+ private:
+  const Locations& locations_;
+  const Progress& progress_;
+  mutable unsigned calls_ = 0;
+};
+
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-    nanoflann::L2_Simple_Adaptor<double, Locations, double, std::uint32_t>, Locations, 3, std::uint32_t>;
+    nanoflann::L2_Simple_Adaptor<double, Locations, double, std::uint32_t>, TreeSource, 3, std::uint32_t>;
 
 /// The points at the found locations in the order (distance, index), at most `count`.
 void expand(const Locations& locations, std::span<const NearestLocations::Entry> entries, std::size_t count,
@@ -261,8 +307,8 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& p
   result.indices.resize(result.offsets.back());
   if (distinct < 2) return result;
 
-  Tree tree(3, locations, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-  tree.buildIndex();
+  const TreeSource tree_source(locations, progress);
+  const Tree tree(3, tree_source, nanoflann::KDTreeSingleIndexAdaptorParams(10));  // builds it
   progress.check();
 
   tbb::parallel_for(
