@@ -30,6 +30,8 @@ void install_signal_handlers();
 class TerminalProgress : public Progress {
  public:
   explicit TerminalProgress(bool quiet);
+  TerminalProgress(const TerminalProgress&) = delete;
+  TerminalProgress& operator=(const TerminalProgress&) = delete;
   ~TerminalProgress() override;
   void begin(std::string_view stage, std::uint64_t total) override;
   void advance(std::uint64_t units) override;

@@ -369,7 +369,7 @@ TEST(Gauss, ManyNeighborsNeedWiderSums) {
   GaussOptions options;
   options.neighbors = 40;
   options.plain = true;
-  EXPECT_LE(disagreement(shape("cube", 1200, 0.05).cloud, options, 60), 0.001);
+  EXPECT_LE(disagreement(shape("cube", 300, 0.05).cloud, options, 60), 0.001);
 }
 
 // --- sigma

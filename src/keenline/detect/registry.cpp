@@ -81,6 +81,7 @@ const Method& find_method(std::string_view name) {
       std::find_if(table.begin(), table.end(), [&](const Method& method) { return method.name == name; });
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
+  names.reserve(table.size());
   for (const Method& method : table) names.push_back(method.name);
   throw InvalidArgument(
       fmt::format("--method: found {}, expected one of {}", quoted(name), fmt::join(names, ", ")));

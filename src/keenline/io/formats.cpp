@@ -70,6 +70,7 @@ const Format& find_format(const Source& source) {
   if (const auto found = with_match(Match::Weak); found != table.end()) return *found;
 
   std::vector<std::string_view> names;
+  names.reserve(table.size());
   for (const Format& format : table) names.push_back(format.name);
   throw InputError(source.name, Place::byte(0),
                    source.bytes.empty() ? "an empty file" : quoted(source.bytes.substr(0, 16)),

@@ -14,6 +14,8 @@ class OutputFile : public Sink {
   /// \throw OutputError when the folder is missing or not writable, or the target exists and is not a regular
   /// file.
   explicit OutputFile(const std::string& path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
   /// Removes the temporary file unless committed.
   ~OutputFile() override;
 

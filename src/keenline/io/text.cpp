@@ -121,6 +121,7 @@ std::string_view description_of_number() {
   if constexpr (std::is_same_v<T, double>) return "a number";
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
 #define KEENLINE_INSTANTIATE(T)                          \
   template Parsed parse_number<T>(std::string_view, T&); \
   template std::string_view description_of_number<T>();
@@ -135,5 +136,6 @@ KEENLINE_INSTANTIATE(std::uint64_t)
 KEENLINE_INSTANTIATE(float)
 KEENLINE_INSTANTIATE(double)
 #undef KEENLINE_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace keenline

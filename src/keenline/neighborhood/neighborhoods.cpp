@@ -287,7 +287,9 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, int count, Progress& p
     throw InvalidArgument(
         fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
   const auto capacity = static_cast<std::size_t>(count);
-  require_memory(cloud.size() * (capacity * 4 + 8 + 24 + 16 + 3 * 4), "finding neighbours");
+  // Neighbours and offset; position, key of the curve and three indices while they are found.
+  constexpr std::size_t fixed_bytes = 8 + sizeof(Point) + 16 + 3 * sizeof(std::uint32_t);
+  require_memory(cloud.size() * (capacity * sizeof(std::uint32_t) + fixed_bytes), "finding neighbours");
   progress.begin("neighborhoods", cloud.size());
 
   const Locations locations = distinct_locations(cloud, progress);
