@@ -160,9 +160,11 @@ double disagreement(const PointCloud& cloud, const GaussOptions& options, std::s
 }
 
 #if defined(__SANITIZE_ADDRESS__) || (defined(__has_feature) && __has_feature(address_sanitizer))
-constexpr std::uint64_t points_to_compare = 600;
+constexpr std::uint64_t points_to_compare = 300;
+constexpr bool sanitized = true;
 #else
 constexpr std::uint64_t points_to_compare = 4000;
+constexpr bool sanitized = false;
 #endif
 
 struct Comparison {
@@ -243,6 +245,7 @@ class GaussOnAnalyticShapes : public testing::TestWithParam<Expected> {};
 /// is met when it lies within what one cloud's figure scatters (its standard deviation is 0.013 for the cube,
 /// 0.027 for the cylinder).
 TEST_P(GaussOnAnalyticShapes, MeetsTheFiguresOfTheSpecification) {
+  if (sanitized) GTEST_SKIP() << "statistics over many clouds: minutes under sanitizers, which other tests feed";
   const Expected& e = GetParam();
   GaussOptions options;
   options.min_sine = e.min_sine;
