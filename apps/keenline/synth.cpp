@@ -65,7 +65,7 @@ Noise parse_noise(std::string_view text) {
 
 void print_result(const SynthArguments& arguments, const SynthCloud& result) {
   const SynthOptions& options = arguments.options;
-  if (arguments.json)
+  if (arguments.json) {
     print_json({{"shape", options.shape},
                 {"output", arguments.output},
                 {"points", result.cloud.size()},
@@ -76,10 +76,11 @@ void print_result(const SynthArguments& arguments, const SynthCloud& result) {
                 {"curves", result.curves.size()},
                 {"corners", result.corners.size()},
                 {"peaks", result.peaks.size()}});
-  else if (!arguments.quiet)
+  } else if (!arguments.quiet) {
     print(fmt::format("{}: {} points, spacing {:.6g}, {} true lines, {} corners, {} peaks; in {}\n",
                       options.shape, grouped(result.cloud.size()), result.spacing, result.curves.size(),
                       result.corners.size(), result.peaks.size(), escaped(arguments.output, 4096)));
+  }
 }
 
 void synth(const CLI::App& command, SynthArguments& arguments) {

@@ -245,7 +245,8 @@ class GaussOnAnalyticShapes : public testing::TestWithParam<Expected> {};
 /// is met when it lies within what one cloud's figure scatters (its standard deviation is 0.013 for the cube,
 /// 0.027 for the cylinder).
 TEST_P(GaussOnAnalyticShapes, MeetsTheFiguresOfTheSpecification) {
-  if (sanitized) GTEST_SKIP() << "statistics over many clouds: minutes under sanitizers, which other tests feed";
+  if (sanitized)
+    GTEST_SKIP() << "statistics over many clouds: minutes under sanitizers, which other tests feed";
   const Expected& e = GetParam();
   GaussOptions options;
   options.min_sine = e.min_sine;
