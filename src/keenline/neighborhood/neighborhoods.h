@@ -26,12 +26,12 @@ inline constexpr int min_neighbors = 3;
 inline constexpr int max_neighbors = 255;
 
 /// The `count` nearest other points of every point, ordered by (distance, index).
-/// Points that coincide with the query are not its neighbours; points that are not finite have none and are
-/// none. Fewer than `count` are given where the cloud has no more. Distances are exact to double precision
-/// for coordinates of any magnitude: the cloud is scaled by a power of two when squares would leave the range
-/// of doubles, and points further out than 1e150 times its extent are pulled in. Threads: any number, same
-/// bits. Cost: O(n log n) for well-spread points. Memory: 4 count + 8 bytes per point. \throw InvalidArgument
-/// unless min_neighbors <= count <= max_neighbors; OutOfMemory; Cancelled.
+/// Points that coincide with the query are not its neighbours; points that are not finite take no part.
+/// Fewer than `count` are given where the cloud has no more.
+/// Distances are exact to double precision: the cloud is scaled by a power of two when squares would leave
+/// the range of doubles. In clouds that span more than 300 decades the smallest distances become ties.
+/// Threads: any number, same bits. Cost: O(n log n) for well-spread points. Memory: 4 count + 8 bytes each.
+/// \throw InvalidArgument unless min_neighbors <= count <= max_neighbors; OutOfMemory; Cancelled.
 [[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, int count,
                                                Progress& progress = no_progress());
 
