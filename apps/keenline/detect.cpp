@@ -10,10 +10,12 @@
 
 #include "keenline/detect/registry.h"
 #include "keenline/errors.h"
+#include "keenline/io/text.h"
 #include "keenline/memory.h"
 #include "keenline/pipeline.h"
 
 #include "commands.h"
+#include "method_options.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -21,50 +23,11 @@ namespace {
 
 struct DetectArguments {
   DetectJob job;
-  std::map<std::string, std::string> options;  // method options as typed
-  std::map<std::string, bool> flags;
+  MethodArguments method;
   int threads = 0;
   bool json = false;
   bool quiet = false;
 };
-
-/// One flag for every option of every method: methods share a name only for the same thing.
-void add_method_options(CLI::App& command, DetectArguments& arguments) {
-  std::set<std::string, std::less<>> known;
-  for (const Method& method : methods()) {
-    for (const OptionInfo& option : method.options) {
-      const std::string name(option.name);
-      if (!known.insert(name).second) continue;
-      if (option.type == OptionInfo::Type::Flag) {
-        command.add_flag("--" + name, arguments.flags[name], std::string(option.summary))->group("Method");
-        continue;
-      }
-      const std::string value =
-          option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic);
-      command
-          .add_option("--" + name, arguments.options[name],
-                      fmt::format("{} ({}; default {})", option.summary, range_of(option), value))
-          ->type_name("")
-          ->group("Method");
-    }
-  }
-}
-
-/// \throw InvalidArgument with the allowed range.
-OptionValues parsed_options(const CLI::App& command, const DetectArguments& arguments) {
-  const Method& method = find_method(arguments.job.method);
-  OptionValues values;
-  for (const auto& [name, text] : arguments.options) {
-    if (command.count("--" + name) == 0) continue;
-    const auto option = std::find_if(method.options.begin(), method.options.end(),
-                                     [&name = name](const OptionInfo& o) { return o.name == name; });
-    // An option of another method: resolve_options says so.
-    values[name] = option == method.options.end() ? std::nullopt : parse_option(*option, text);
-  }
-  for (const auto& [name, set] : arguments.flags)
-    if (set) values[name] = 1;
-  return values;
-}
 
 std::map<std::string, std::size_t> counts_per_kind(const FeatureLabels& labels) {
   std::map<std::string, std::size_t> counts;
@@ -146,7 +109,7 @@ void print_summary(const DetectArguments& arguments, const DetectReport& report)
 
 void detect(const CLI::App& command, DetectArguments& arguments) {
   limit_threads(arguments.threads);
-  arguments.job.options = parsed_options(command, arguments);
+  arguments.job.options = parsed_options(command, find_method(arguments.job.method), arguments.method);
   TerminalProgress progress(arguments.quiet);
   // Told before the result appears: when nobody can be told, that is a failure, and then nothing is left.
   (void)run_detect(arguments.job, progress, [&](const DetectReport& report) {
@@ -173,7 +136,7 @@ void add_detect(CLI::App& app, Action& action) {
   command->add_option("--method", arguments->job.method, "One of: keenline methods")
       ->capture_default_str()
       ->type_name("NAME");
-  add_method_options(*command, *arguments);
+  add_method_options(*command, methods(), arguments->method);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
   command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");

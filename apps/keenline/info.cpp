@@ -10,6 +10,7 @@
 
 #include "keenline/errors.h"
 #include "keenline/io/read.h"
+#include "keenline/io/text.h"
 
 #include "commands.h"
 #include "terminal.h"

@@ -60,7 +60,4 @@ void print_notes(std::string_view file, const std::vector<std::string>& notes);
 void print(std::string_view text);
 void print_json(nlohmann::json object);
 
-/// 1234567 as "1,234,567".
-[[nodiscard]] std::string grouped(std::uint64_t number);
-
 }  // namespace keenline::cli

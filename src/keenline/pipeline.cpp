@@ -2,12 +2,12 @@
 
 #include <cerrno>
 #include <chrono>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "keenline/errors.h"
+#include "keenline/io/output_file.h"
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
 #include "keenline/neighborhood/neighborhoods.h"
@@ -28,15 +28,6 @@ class StopWatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// The input is precious: a result never replaces it.
-void require_different_files(const std::string& input, const std::string& output) {
-  struct stat in {};
-  struct stat out {};
-  if (::stat(input.c_str(), &in) != 0 || ::stat(output.c_str(), &out) != 0) return;
-  if (in.st_dev == out.st_dev && in.st_ino == out.st_ino)
-    throw InvalidArgument(fmt::format("output {} is the input; expected another file", quoted(output, 4096)));
-}
 
 /// Found out now, not after an hour of work.
 void require_writable_folder(const std::string& output) {

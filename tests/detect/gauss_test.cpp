@@ -430,5 +430,97 @@ TEST(Gauss, CanBeCancelled) {
   EXPECT_THROW((void)detect_gauss(cloud, neighborhoods, {}, progress), Cancelled);
 }
 
+// --- the Gauss map of one point
+// -------------------------------------------------------------------------------------------------
+
+TEST(GaussMap, SaysOfEveryPointWhatDetectionSays) {
+  for (const bool plain : {false, true}) {
+    const PointCloud cloud = shape("fandisk", 1500, 0.03).cloud;
+    GaussOptions options;
+    options.plain = plain;
+    const Neighborhoods neighborhoods = find_neighborhoods(cloud, options.neighbors);
+    const FeatureLabels labels = detect_gauss(cloud, neighborhoods, options);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const PointGaussMap map = gauss_map(cloud, neighborhoods, i, options);
+      EXPECT_EQ(map.kind, labels.kind[i]) << i;
+      ASSERT_EQ(map.sizes.size(), labels.clusters[i]) << i;
+      ASSERT_EQ(map.cluster.size(), map.lines.size());
+      EXPECT_TRUE(std::is_sorted(map.sizes.rbegin(), map.sizes.rend()));
+      std::vector<int> counted(map.sizes.size());
+      for (const int cluster : map.cluster)
+        if (cluster >= 0) ++counted.at(static_cast<std::size_t>(cluster));
+      EXPECT_EQ(counted, map.sizes) << i;
+    }
+  }
+}
+
+TEST(GaussMap, AFoldHasALineOfEachPlaneInEachCluster) {
+  std::vector<Point> directions;
+  for (int i = 0; i < 8; ++i) {
+    const Point d = in_plane(-80 + 160.0 * i / 7);
+    directions.push_back({d[0], d[1], 0});
+    directions.push_back({0, d[1] + 0.01, d[0]});
+  }
+  const PointCloud cloud = star(directions);
+  GaussOptions options;
+  options.plain = true;
+  const PointGaussMap map = gauss_map(cloud, find_neighborhoods(cloud, 16), 0, options);
+  EXPECT_EQ(map.kind, Kind::Edge);
+  ASSERT_EQ(map.sizes.size(), 2U);
+  // All lines of one plane are in one cluster, those of the other in the other.
+  std::array<int, 2> planes{-1, -1};
+  for (std::size_t i = 0; i < map.lines.size(); ++i) {
+    const auto& line = map.lines[i];
+    EXPECT_NEAR(line[0] * line[0] + line[1] * line[1] + line[2] * line[2], 1, 1e-6);
+    for (const std::size_t plane : {0U, 1U}) {
+      if (std::abs(line[plane == 0 ? 2 : 0]) < 1 - 1e-6F) continue;
+      if (planes[plane] < 0) planes[plane] = map.cluster[i];
+      EXPECT_EQ(map.cluster[i], planes[plane]);
+    }
+  }
+  EXPECT_EQ(planes[0] + planes[1], 1);
+}
+
+TEST(GaussMap, TheClustersAreThoseOfTheTextbook) {
+  // Lines of one cluster have no mean distance above sigma to it, of two clusters none below it: merging
+  // would have gone on, or not have come so far.
+  const PointCloud cloud = shape("cube", 800, 0.05).cloud;
+  GaussOptions options;
+  options.plain = true;
+  options.min_cluster = 1;
+  options.max_clusters = 255;
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 16);
+  for (std::size_t point = 0; point < 100; ++point) {
+    const PointGaussMap map = gauss_map(cloud, neighborhoods, point, options);
+    const std::size_t clusters = map.sizes.size();
+    std::vector<double> sums(clusters * clusters);
+    for (std::size_t i = 0; i < map.lines.size(); ++i) {
+      for (std::size_t j = 0; j < map.lines.size(); ++j) {
+        double cosine = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          cosine += static_cast<double>(map.lines[i][axis]) * static_cast<double>(map.lines[j][axis]);
+        const auto a = static_cast<std::size_t>(map.cluster[i]);
+        const auto b = static_cast<std::size_t>(map.cluster[j]);
+        sums[a * clusters + b] += std::acos(std::min(1.0, std::abs(cosine))) * 180 / std::numbers::pi;
+      }
+    }
+    for (std::size_t a = 0; a < clusters; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        EXPECT_GT(sums[a * clusters + b] / (map.sizes[a] * map.sizes[b]), 20 - 0.01) << point;
+  }
+}
+
+TEST(GaussMap, TooFewNeighborsAndWrongPoints) {
+  PointCloud cloud;
+  for (int i = 0; i < 5; ++i) cloud.positions.push_back({1.0 * i, i % 2 * 1.0, i % 3 * 1.0});
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 16);
+  const PointGaussMap map = gauss_map(cloud, neighborhoods, 0);
+  EXPECT_EQ(map.kind, Kind::Undecided);
+  EXPECT_TRUE(map.lines.empty() && map.cluster.empty() && map.sizes.empty());
+  test::expect_error<InvalidArgument>([&] { (void)gauss_map(cloud, neighborhoods, 5); }, "point 5",
+                                      "5 points");
+  test::expect_error<InvalidArgument>([&] { (void)gauss_map(cloud, {}, 0); }, "0 neighborhoods");
+}
+
 }  // namespace
 }  // namespace keenline

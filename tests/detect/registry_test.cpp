@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/cloud.h"
+#include "keenline/detect/gauss.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighborhoods.h"
 
@@ -90,6 +91,33 @@ TEST(Registry, ReportsWhatWasChosenFromTheData) {
   EXPECT_EQ(labels.size(), 0U);
   ASSERT_TRUE(values.at("sigma").has_value());
   EXPECT_GT(*values.at("sigma"), 0);
+}
+
+TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
+  const Method& gauss = find_method("gauss");
+  const GaussOptions standard;
+  const GaussOptions defaults = gauss_options_from(resolve_options(gauss, {}));
+  EXPECT_EQ(defaults.neighbors, standard.neighbors);
+  EXPECT_EQ(defaults.sigma_deg, standard.sigma_deg);
+  EXPECT_EQ(defaults.min_cluster, standard.min_cluster);
+  EXPECT_EQ(defaults.max_clusters, standard.max_clusters);
+  EXPECT_EQ(defaults.min_sine, standard.min_sine);
+  EXPECT_EQ(defaults.flatness_deg, standard.flatness_deg);
+  EXPECT_EQ(defaults.plain, standard.plain);
+  const GaussOptions given = gauss_options_from(resolve_options(gauss, {{"neighbors", 24.0},
+                                                                        {"sigma", std::nullopt},
+                                                                        {"min-cluster", 5.0},
+                                                                        {"max-clusters", 6.0},
+                                                                        {"min-sine", 0.3},
+                                                                        {"flatness", 7.0},
+                                                                        {"plain", 1.0}}));
+  EXPECT_EQ(given.neighbors, 24);
+  EXPECT_EQ(given.sigma_deg, std::nullopt);
+  EXPECT_EQ(given.min_cluster, 5);
+  EXPECT_EQ(given.max_clusters, 6);
+  EXPECT_EQ(given.min_sine, 0.3);
+  EXPECT_EQ(given.flatness_deg, 7);
+  EXPECT_TRUE(given.plain);
 }
 
 }  // namespace

@@ -128,5 +128,17 @@ TEST(OutputFile, UnfinishedOutputCanBeRemovedFromASignalHandler) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
+TEST(OutputFile, TheInputIsNeverTheOutput) {
+  const TemporaryFolder folder;
+  const std::string input = folder.write("cloud.ply", "points");
+  const std::string other = folder.write("other.ply", "points");
+  std::filesystem::create_symlink(input, folder.file("link.ply"));
+  EXPECT_NO_THROW(require_different_files(input, other));
+  EXPECT_NO_THROW(require_different_files(input, folder.file("new.ply")));
+  EXPECT_NO_THROW(require_different_files(folder.file("none"), folder.file("none")));
+  for (const std::string& same : {input, folder.file("./cloud.ply"), folder.file("link.ply")})
+    expect_error<InvalidArgument>([&] { require_different_files(input, same); }, "is the input");
+}
+
 }  // namespace
 }  // namespace keenline

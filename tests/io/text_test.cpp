@@ -176,5 +176,13 @@ TEST(ParseNumber, DescriptionsTellTheRange) {
   EXPECT_EQ(description_of_number<std::int16_t>(), "an integer from -32768 to 32767");
 }
 
+TEST(Grouped, AThousandAtATime) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+  EXPECT_EQ(grouped(18446744073709551615U), "18,446,744,073,709,551,615");
+}
+
 }  // namespace
 }  // namespace keenline

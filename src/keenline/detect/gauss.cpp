@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,18 @@ int significant_clusters(const Dendrogram& dendrogram, double sigma_deg) {
   return count;
 }
 
+/// For each line the smallest line of the cluster that it is in when merging stops at `sigma_deg`.
+std::vector<std::uint32_t> clusters_of_lines(const Dendrogram& dendrogram, double sigma_deg) {
+  std::vector<std::uint32_t> names(static_cast<std::size_t>(dendrogram.lines));
+  if (dendrogram.one_direction) return names;
+  std::iota(names.begin(), names.end(), 0U);
+  // Backwards: a cluster's last merge names it, before its parts take over the name.
+  const double cut = sigma_deg * angle_units_per_degree;
+  for (auto merge = dendrogram.merges.rbegin(); merge != dendrogram.merges.rend(); ++merge)
+    if (merge->height <= cut) names[merge->second] = names[merge->first];
+  return names;
+}
+
 /// The largest angle at which two significant clusters become one, in degrees.
 float sharpness_deg(const Dendrogram& dendrogram) {
   double height = 0;
@@ -97,6 +110,13 @@ class GaussMap {
   GaussMap(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options,
            const Progress& progress)
       : cloud_(cloud), neighborhoods_(neighborhoods), options_(options), progress_(progress) {}
+
+  /// Of the point that of() was last called for.
+  [[nodiscard]] std::vector<std::array<float, 3>> lines() const {
+    std::vector<std::array<float, 3>> lines;
+    for (std::size_t i = 0; i < x_.size(); ++i) lines.push_back({x_[i], y_[i], z_[i]});
+    return lines;
+  }
 
   /// `complete`: merges are wanted even below the smallest sensitivity.
   Dendrogram of(std::size_t point, bool complete) {
@@ -311,6 +331,39 @@ double choose_sigma(const PointCloud& cloud, const Neighborhoods& neighborhoods,
     }
   }
   return best_sigma_deg;
+}
+
+PointGaussMap gauss_map(const PointCloud& cloud, const Neighborhoods& neighborhoods, std::size_t point,
+                        const GaussOptions& options, Progress& progress) {
+  validate(options);
+  if (neighborhoods.size() != cloud.size())
+    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
+  if (point >= cloud.size())
+    throw InvalidArgument(fmt::format("point {} of a cloud of {} points", point, cloud.size()));
+  const double sigma_deg =
+      options.sigma_deg ? *options.sigma_deg : choose_sigma(cloud, neighborhoods, options, progress);
+  GaussMap map(cloud, neighborhoods, options, progress);
+  const Dendrogram dendrogram = map.of(point, sigma_deg < spectrum_step_deg);
+  PointGaussMap result;
+  result.kind = kind_of(dendrogram, significant_clusters(dendrogram, sigma_deg), options.max_clusters);
+  if (!dendrogram.decided) return result;
+  result.lines = map.lines();
+
+  const std::vector<std::uint32_t> names = clusters_of_lines(dendrogram, sigma_deg);
+  std::vector<int> sizes(names.size());
+  for (const std::uint32_t name : names) ++sizes[name];
+  std::vector<std::uint32_t> significant;
+  for (std::uint32_t name = 0; name < sizes.size(); ++name)
+    if (sizes[name] > 0 && sizes[name] >= dendrogram.min_cluster) significant.push_back(name);
+  std::stable_sort(significant.begin(), significant.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
+  std::vector<int> places(sizes.size(), -1);
+  for (const std::uint32_t name : significant) {
+    places[name] = static_cast<int>(result.sizes.size());
+    result.sizes.push_back(sizes[name]);
+  }
+  for (const std::uint32_t name : names) result.cluster.push_back(places[name]);
+  return result;
 }
 
 }  // namespace keenline

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "keenline/labels.h"
 #include "keenline/progress.h"
@@ -51,5 +54,18 @@ struct GaussOptions {
 /// detect_gauss()
 [[nodiscard]] double choose_sigma(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                                   const GaussOptions& options = {}, Progress& progress = no_progress());
+
+/// The Gauss map of one point as detect_gauss() judges it, cut at sigma.
+struct PointGaussMap {
+  std::vector<std::array<float, 3>> lines;  ///< unit vectors; a line and its reverse are the same
+  std::vector<int> cluster;  ///< of every line: its place in sizes, or -1 when its cluster is not significant
+  std::vector<int> sizes;    ///< lines of every significant cluster, largest first
+  Kind kind = Kind::Undecided;
+};
+
+/// \pre and \throw as detect_gauss(); InvalidArgument unless point < cloud.size()
+[[nodiscard]] PointGaussMap gauss_map(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                                      std::size_t point, const GaussOptions& options = {},
+                                      Progress& progress = no_progress());
 
 }  // namespace keenline

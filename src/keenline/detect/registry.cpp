@@ -42,15 +42,7 @@ int gauss_reach(const OptionValues& values) { return static_cast<int>(*values.at
 
 FeatureLabels gauss_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
                            Progress& progress) {
-  GaussOptions options;
-  options.neighbors = static_cast<int>(*values.at("neighbors"));
-  options.sigma_deg = values.at("sigma");
-  if (const auto& min_cluster = values.at("min-cluster"))
-    options.min_cluster = static_cast<int>(*min_cluster);
-  options.max_clusters = static_cast<int>(*values.at("max-clusters"));
-  options.min_sine = *values.at("min-sine");
-  options.flatness_deg = *values.at("flatness");
-  options.plain = *values.at("plain") != 0;
+  GaussOptions options = gauss_options_from(values);
   if (!options.sigma_deg && !options.plain)
     values["sigma"] = options.sigma_deg = choose_sigma(cloud, neighborhoods, options, progress);
   return detect_gauss(cloud, neighborhoods, options, progress);
@@ -122,6 +114,19 @@ OptionValues resolve_options(const Method& method, const OptionValues& given) {
     if (!values.contains(name))
       throw InvalidArgument(fmt::format("--{}: method {} has no such option", escaped(name), method.name));
   return values;
+}
+
+GaussOptions gauss_options_from(const OptionValues& values) {
+  GaussOptions options;
+  options.neighbors = static_cast<int>(*values.at("neighbors"));
+  options.sigma_deg = values.at("sigma");
+  if (const auto& min_cluster = values.at("min-cluster"))
+    options.min_cluster = static_cast<int>(*min_cluster);
+  options.max_clusters = static_cast<int>(*values.at("max-clusters"));
+  options.min_sine = *values.at("min-sine");
+  options.flatness_deg = *values.at("flatness");
+  options.plain = *values.at("plain") != 0;
+  return options;
 }
 
 }  // namespace keenline

@@ -11,6 +11,7 @@
 
 namespace keenline {
 
+struct GaussOptions;
 struct Neighborhoods;
 struct PointCloud;
 
@@ -65,5 +66,8 @@ struct Method {
 /// All options of the method: given values where there are some, defaults elsewhere.
 /// \throw InvalidArgument for a name that the method does not have or a value out of range.
 [[nodiscard]] OptionValues resolve_options(const Method& method, const OptionValues& given);
+
+/// \pre values hold every option of the method gauss (see resolve_options)
+[[nodiscard]] GaussOptions gauss_options_from(const OptionValues& values);
 
 }  // namespace keenline

@@ -198,6 +198,14 @@ void OutputFile::publish(int folder) {
   temporary_.clear();
 }
 
+void require_different_files(const std::string& input, const std::string& output) {
+  struct stat in {};
+  struct stat out {};
+  if (::stat(input.c_str(), &in) != 0 || ::stat(output.c_str(), &out) != 0) return;
+  if (in.st_dev == out.st_dev && in.st_ino == out.st_ino)
+    throw InvalidArgument(fmt::format("output {} is the input; expected another file", quoted(output, 4096)));
+}
+
 void remove_unfinished_output() noexcept {
   for (UnfinishedPath& slot : unfinished_paths)
     if (slot.state == UnfinishedPath::Armed) ::unlink(slot.path.data());

@@ -38,6 +38,10 @@ class OutputFile : public Sink {
   int descriptor_ = -1;  // none once stored
 };
 
+/// The input is precious: a result never replaces it.
+/// \throw InvalidArgument when both names lead to the same file.
+void require_different_files(const std::string& input, const std::string& output);
+
 /// Removes the temporary file of an OutputFile that is open just now. Safe to call from a signal handler;
 /// meant for a program that is about to end without unwinding.
 void remove_unfinished_output() noexcept;

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <fast_float/fast_float.h>
+#include <fmt/format.h>
 
 namespace keenline {
 namespace {
@@ -137,5 +138,11 @@ KEENLINE_INSTANTIATE(float)
 KEENLINE_INSTANTIATE(double)
 #undef KEENLINE_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = fmt::format("{}", number);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
 
 }  // namespace keenline

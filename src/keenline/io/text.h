@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace keenline {
@@ -46,5 +47,8 @@ template <typename T>
 /// Words for a message: "a number", "an integer from 0 to 255".
 template <typename T>
 [[nodiscard]] std::string_view description_of_number();
+
+/// 1234567 as "1,234,567".
+[[nodiscard]] std::string grouped(std::uint64_t number);
 
 }  // namespace keenline

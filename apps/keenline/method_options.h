@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+
+#include "keenline/detect/registry.h"
+
+namespace CLI {
+class App;
+}
+
+namespace keenline::cli {
+
+/// What a user typed for the options of methods.
+struct MethodArguments {
+  std::map<std::string, std::string> options;
+  std::map<std::string, bool> flags;
+};
+
+/// One flag for every option of these methods: methods share a name only for the same thing.
+void add_method_options(CLI::App& command, std::span<const Method> methods, MethodArguments& arguments);
+
+/// What was given, for `method`. \throw InvalidArgument with the allowed range.
+[[nodiscard]] OptionValues parsed_options(const CLI::App& command, const Method& method,
+                                          const MethodArguments& arguments);
+
+}  // namespace keenline::cli
