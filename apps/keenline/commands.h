@@ -17,5 +17,7 @@ void add_synth(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_methods(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
+void add_picture(CLI::App& app, Action& action);
+void add_gaussmap(CLI::App& app, Action& action);
 
 }  // namespace keenline::cli

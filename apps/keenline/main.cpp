@@ -76,6 +76,8 @@ int run(int argc, char** argv) {
   keenline::cli::add_synth(app, action);
   keenline::cli::add_evaluate(app, action);
   keenline::cli::add_info(app, action);
+  keenline::cli::add_picture(app, action);
+  keenline::cli::add_gaussmap(app, action);
   keenline::cli::add_methods(app, action);
   try {
     app.parse(argc, argv);

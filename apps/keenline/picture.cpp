@@ -1,0 +1,67 @@
+#include "keenline/report/picture.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "keenline/io/output_file.h"
+#include "keenline/io/read.h"
+#include "keenline/report/png.h"
+
+#include "commands.h"
+#include "sheet_options.h"
+#include "terminal.h"
+
+namespace keenline::cli {
+namespace {
+
+struct PictureArguments {
+  std::vector<std::string> inputs;
+  std::string color;
+  SheetArguments sheet;
+};
+
+void picture(const PictureArguments& arguments) {
+  limit_threads(arguments.sheet.threads);
+  const std::string& output = arguments.sheet.output;
+  require_png_extension(output);
+  PictureOptions options;
+  options.camera = parsed_view(arguments.sheet, options.camera);
+  const Size size = parsed_size(arguments.sheet, {options.width, options.height});
+  options.width = size.width;
+  options.height = size.height;
+  options.color = arguments.color;
+
+  TerminalProgress progress(arguments.sheet.quiet);
+  std::vector<Image> pictures;
+  for (const std::string& input : arguments.inputs) {
+    require_different_files(input, output);
+    options.caption = caption_of(arguments.sheet, pictures.size(), arguments.inputs.size()).value_or("");
+    const Reading reading = read_cloud(input, progress);
+    progress.clear();
+    if (!arguments.sheet.quiet) print_notes(input, reading.notes);
+    pictures.push_back(draw_cloud(reading.cloud, options, progress));
+    progress.clear();
+  }
+  write_sheet(arguments.sheet, pictures, arguments.inputs, progress);
+}
+
+}  // namespace
+
+void add_picture(CLI::App& app, Action& action) {
+  CLI::App* const command = app.add_subcommand("picture", "Draw point clouds, labelled or not, as a PNG");
+  const auto arguments = std::make_shared<PictureArguments>();
+  command->add_option("CLOUD", arguments->inputs, "Point clouds or meshes; several stand on one sheet")
+      ->required();
+  command
+      ->add_option("--color", arguments->color,
+                   "kind, score, or any numeric attribute (default: kind, where the cloud has it)")
+      ->type_name("NAME");
+  const PictureOptions standard;
+  add_sheet_options(*command, arguments->sheet, standard.camera, {standard.width, standard.height});
+  command->callback([&action, arguments] { action = [arguments] { picture(*arguments); }; });
+}
+
+}  // namespace keenline::cli
