@@ -2,9 +2,10 @@
 # make build   set up, build the program: build/release/bin/keenline
 # make test    set up, build, run the tests
 # make check   the slower checks: sanitizers, fuzzing, format, lint, the installed package
+# make figures   the paper's figures as PNG, in build/figures
 # make benchmark   accuracy on the benchmark clouds, where they are present
 
-.PHONY: build demo test check benchmark format clean
+.PHONY: build demo test check figures benchmark format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -24,6 +25,9 @@ test:
 check:
 	scripts/setup.sh check
 	scripts/check.sh
+
+figures: build
+	scripts/figures.sh build/release/bin/keenline build/figures
 
 benchmark: build
 	bench/edge_benchmark.sh build/release/bin/keenline ../shared/data/edge-benchmark build/benchmark

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# The figures of Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", made by the program alone.
+# docs/methods/gauss.md shows them and says what differs from the paper.
+set -euo pipefail
+
+keenline=${1:?usage: scripts/figures.sh KEENLINE FOLDER}
+folder=${2:?usage: scripts/figures.sh KEENLINE FOLDER}
+points=${KEENLINE_FIGURE_POINTS:-9000}  # fewer: quicker, coarser figures
+mkdir -p "$folder"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# cloud NAME SHAPE [synth options]: a cloud in the work folder
+cloud() {
+  local name=$1 shape=$2
+  shift 2
+  "$keenline" synth "$shape" -o "$work/$name.ply" --points "$points" --quiet "$@"
+}
+
+# labels NAME CLOUD [detect options]: its labels by the paper's section 4
+labels() {
+  local name=$1 source=$2
+  shift 2
+  "$keenline" detect "$work/$source.ply" -o "$work/$name.ply" --plain --quiet "$@"
+}
+
+# sheet FIGURE [picture options]: the clouds and captions gathered by add on one sheet
+shown=()
+add() { shown+=("$work/$1.ply" --caption "$2"); }
+sheet() {
+  local figure=$1
+  shift
+  "$keenline" picture "${shown[@]}" -o "$folder/$figure.png" "$@"
+  shown=()
+}
+
+# Figure 2: the Gauss map of one point, coloured by cluster. Clouds of the same seed are the same everywhere:
+# point 1613 lies on an edge of this cube, 1468 at a corner, 4339 in the middle of a face.
+"$keenline" synth cube -o "$work/cube.ply" --points 6000 --quiet
+"$keenline" synth sphere -o "$work/sphere.ply" --points 6000 --quiet
+"$keenline" gaussmap "$work/cube.ply" --plain -o "$folder/figure2-cube.png" --columns 3 --size 360,410 \
+  --point 1613 --caption "cube, on an edge" --point 1468 --caption "cube, at a corner" --point 4339 --caption "cube, on a face"
+"$keenline" gaussmap "$work/sphere.ply" --plain -o "$folder/figure2-sphere.png" --size 360,410 --point 0 --caption "sphere"
+
+# Figure 4: the sensitivity sigma.
+for shape in fandisk icosahedron; do
+  cloud "$shape" "$shape"
+  for sigma in 2.5 5 10 20 30 45; do
+    labels "$shape-$sigma" "$shape" --sigma "$sigma" --max-clusters 5
+    add "$shape-$sigma" "$shape, sigma $sigma deg"
+  done
+  sheet "figure4-$shape" --columns 3 --size 370,270
+done
+
+# Figure 5: noise, as the paper words it (of the bounding box) and in units of the spacing h.
+for unit in bbox h; do
+  for percent in 5 10 15; do
+    name=noise-$percent$unit
+    cloud "$name" cube --noise "$(printf '0.%02d' "$percent")$unit"
+    labels "$name-labels" "$name"
+    case $unit in
+      bbox) add "$name-labels" "noise $percent % of the bounding box" ;;
+      h) add "$name-labels" "noise $percent % of the spacing" ;;
+    esac
+  done
+  case $unit in
+    bbox) sheet figure5-bounding-box --columns 3 --size 370,270 ;;
+    h) sheet figure5-spacing --columns 3 --size 370,270 ;;
+  esac
+done
+
+# Figure 6: the gallery.
+for shape in cube icosahedron trim-star fandisk vase; do
+  cloud "gallery-$shape" "$shape"
+  labels "gallery-$shape-labels" "gallery-$shape" --max-clusters 5
+  add "gallery-$shape-labels" "$shape"
+done
+sheet figure6 --columns 3 --size 370,300
