@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::pi;
 
 void expect_near(const Vec3& a, const Vec3& b) {
   EXPECT_LT(distance(a, b), 1e-15) << a.x << ' ' << a.y << ' ' << a.z;

@@ -7,10 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 #include "keenline/synth/shapes.h"
 
 #include "synth/test_shapes.h"

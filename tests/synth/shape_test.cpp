@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::pi;
 
 Outline triangle() { return polygon_outline(std::array<Vec3, 3>{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}}); }
 

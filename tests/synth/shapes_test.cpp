@@ -7,13 +7,17 @@
 
 #include <gtest/gtest.h>
 
+#include "keenline/kernels/portable_math.h"
 #include "keenline/synth/curve_network.h"
-#include "keenline/synth/portable_math.h"
 
 #include "synth/test_shapes.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::pi;
+using kernels::radians;
+using kernels::sin_cos;
 
 using test::build;
 

@@ -2,9 +2,13 @@
 
 #include <cmath>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
+
+using kernels::angle_of;
+using kernels::pi;
+using kernels::sin_cos;
 
 void Box::include(const Vec3& p) {
   low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::radians;
 
 // Ends that were computed in two ways differ by rounding only.
 constexpr double same_place = 1e-9;

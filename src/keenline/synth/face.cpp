@@ -5,11 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "keenline/kernels/portable_math.h"
 #include "keenline/synth/polynomial.h"
-#include "keenline/synth/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::sin_cos;
 
 constexpr double no_hit = std::numeric_limits<double>::infinity();
 // Shapes are about one unit in size; coordinates carry errors of a few 1e-16.

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::natural_log;
 
 constexpr std::uint64_t golden_gamma = 0x9E3779B97F4A7C15U;
 

@@ -8,11 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "keenline/kernels/portable_math.h"
 #include "keenline/synth/parallel.h"
-#include "keenline/synth/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::sin_cos;
 
 constexpr double stand_off = 3;                    // station to middle of the shape, in bounding radii
 constexpr double half_view = 0.33983690945412193;  // asin(1 / stand_off): the whole bounding sphere

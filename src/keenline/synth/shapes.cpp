@@ -6,10 +6,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 namespace keenline::synth {
 namespace {
+
+using kernels::radians;
+using kernels::sin_cos;
 
 constexpr Vec3 clockwise{0, 0, -1};
 

@@ -1,11 +1,16 @@
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
-namespace keenline::synth {
+namespace keenline::kernels {
 namespace {
+
+constexpr double ln2_high = 0x1.62e42fee00000p-1;  // few bits: its multiples by an exponent are exact
+constexpr double ln2_low = 0x1.a39ef35793c76p-33;
 
 /// Sum of coefficients[i] * x^i.
 template <std::size_t N>
@@ -24,6 +29,19 @@ constexpr std::array<double, N> alternating_factorials(int first) {
     series[i] = term;
     const int n = 2 * static_cast<int>(i) + first;
     term /= -(n + 1.0) * (n + 2.0);
+  }
+  return series;
+}
+
+/// Taylor series in x^2 of cosh(x) (first = 0) and of sinh(x)/x (first = 1): 1/(2i + first)!
+template <std::size_t N>
+constexpr std::array<double, N> reciprocal_factorials(int first) {
+  std::array<double, N> series{};
+  double factorial = 1;  // exact up to 18!
+  for (std::size_t i = 0; i < N; ++i) {
+    series[i] = 1 / factorial;
+    const int n = 2 * static_cast<int>(i) + first;
+    factorial *= (n + 1.0) * (n + 2.0);
   }
   return series;
 }
@@ -68,9 +86,21 @@ SinCos sin_cos(double radians) {
   }
 }
 
+double exp_of_negative(double x) {
+  if (!(x > -708)) return 0;  // smaller results would lose bits
+  constexpr double doublings_per_unit = 1.4426950408889634;
+  const auto doublings = static_cast<std::int64_t>(x * doublings_per_unit - 0.5);  // nearest, as x <= 0
+  const auto count = static_cast<double>(doublings);
+  const double rest = (x - count * ln2_high) - count * ln2_low;  // at most ln(2) / 2 in absolute value
+  // e^x = cosh(x) + sinh(x): two short chains of operations run side by side where one long one would wait.
+  static constexpr auto cosh_series = reciprocal_factorials<7>(0);
+  static constexpr auto sinh_series = reciprocal_factorials<7>(1);
+  const double squared = rest * rest;
+  const auto power_of_two = std::bit_cast<double>(static_cast<std::uint64_t>(doublings + 1023) << 52U);
+  return (horner(cosh_series, squared) + rest * horner(sinh_series, squared)) * power_of_two;
+}
+
 double natural_log(double x) {
-  constexpr double ln2_high = 0x1.62e42fee00000p-1;  // exact multiples, as above
-  constexpr double ln2_low = 0x1.a39ef35793c76p-33;
   int exponent = 0;
   double mantissa = std::frexp(x, &exponent);  // in [1/2, 1)
   if (mantissa < 0.70710678118654752) {
@@ -92,4 +122,4 @@ double angle_of(double y, double x) {
   return y < 0 ? -half : half;
 }
 
-}  // namespace keenline::synth
+}  // namespace keenline::kernels

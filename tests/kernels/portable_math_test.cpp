@@ -1,4 +1,4 @@
-#include "keenline/synth/portable_math.h"
+#include "keenline/kernels/portable_math.h"
 
 #include <cmath>
 #include <limits>
@@ -7,11 +7,11 @@
 
 #include "keenline/synth/random.h"
 
-namespace keenline::synth {
+namespace keenline::kernels {
 namespace {
 
 TEST(PortableMath, sin_and_cos_agree_with_extended_precision) {
-  RandomStream random(7, Purpose::Position, 0);
+  synth::RandomStream random(7, synth::Purpose::Position, 0);
   for (int i = 0; i < 20000; ++i) {
     const double range = i % 2 == 0 ? 4 : 1e5;
     const double x = range * (2 * random.uniform() - 1);
@@ -30,8 +30,23 @@ TEST(PortableMath, sin_and_cos_are_exact_where_that_is_possible) {
   EXPECT_NEAR(sin_cos(pi).sin, 1.2246467991473532e-16, 1e-31);
 }
 
+TEST(PortableMath, exponential_agrees_with_extended_precision) {
+  synth::RandomStream random(10, synth::Purpose::Position, 0);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = (i % 2 == 0 ? -4 : -708) * random.uniform();
+    const auto expected = static_cast<double>(std::exp(static_cast<long double>(x)));
+    ASSERT_NEAR(exp_of_negative(x), expected, 1e-15 * expected) << x;
+  }
+  EXPECT_EQ(exp_of_negative(0), 1);
+  EXPECT_EQ(exp_of_negative(-0.0), 1);
+  EXPECT_EQ(exp_of_negative(-1e-300), 1);
+  EXPECT_EQ(exp_of_negative(-709), 0);
+  EXPECT_EQ(exp_of_negative(-std::numeric_limits<double>::max()), 0);
+  EXPECT_EQ(exp_of_negative(-std::numeric_limits<double>::infinity()), 0);
+}
+
 TEST(PortableMath, logarithm_agrees_with_extended_precision) {
-  RandomStream random(8, Purpose::Position, 0);
+  synth::RandomStream random(8, synth::Purpose::Position, 0);
   for (int i = 0; i < 20000; ++i) {
     const double x = std::ldexp(1 + random.uniform(), static_cast<int>(random.uniform() * 2000) - 1000);
     const auto expected = static_cast<double>(std::log(static_cast<long double>(x)));
@@ -45,7 +60,7 @@ TEST(PortableMath, logarithm_agrees_with_extended_precision) {
 }
 
 TEST(PortableMath, angle_agrees_with_extended_precision) {
-  RandomStream random(9, Purpose::Position, 0);
+  synth::RandomStream random(9, synth::Purpose::Position, 0);
   for (int i = 0; i < 20000; ++i) {
     const double x = 2 * random.uniform() - 1;
     const double y = (2 * random.uniform() - 1) * (i % 3 == 0 ? 1e-6 : 1);
@@ -61,4 +76,4 @@ TEST(PortableMath, angle_agrees_with_extended_precision) {
 }
 
 }  // namespace
-}  // namespace keenline::synth
+}  // namespace keenline::kernels
