@@ -1,5 +1,6 @@
 #include "keenline/pipeline.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 
@@ -104,6 +105,91 @@ TEST(Pipeline, MistakesAreFoundBeforeTheWork) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
+TEST(Pipeline, RelabellingGivesTheFileOfAFreshRun) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = cube_file(folder);
+  job.options["spectrum"] = 1;
+  job.output = folder.file("spectrum.ply");
+  const DetectReport kept = run_detect(job);
+  ASSERT_TRUE(kept.labels.spectrum);
+
+  RelabelJob again;
+  again.input = job.output;
+  again.output = folder.file("relabelled.ply");
+  again.sigma_deg = 60;
+  const RelabelReport report = run_relabel(again);
+  EXPECT_EQ(report.points, 2000U);
+  EXPECT_EQ(report.finite_points, 2000U);
+  EXPECT_EQ(report.format, "ply");
+  EXPECT_EQ(report.labels.sigma_deg, 60);
+  EXPECT_TRUE(report.notes.empty());
+  EXPECT_GT(report.times.total_s, 0);
+
+  job.options["sigma"] = 60;
+  job.output = folder.file("fresh.ply");
+  const DetectReport fresh = run_detect(job);
+  EXPECT_EQ(report.labels.kind, fresh.labels.kind);
+  EXPECT_NE(report.labels.kind, kept.labels.kind);
+  EXPECT_EQ(TemporaryFolder::read(again.output), TemporaryFolder::read(job.output));
+
+  again.sigma_deg = std::nullopt;
+  EXPECT_EQ(run_relabel(again).labels.sigma_deg, kept.labels.sigma_deg);
+  EXPECT_EQ(TemporaryFolder::read(again.output), TemporaryFolder::read(again.input));
+}
+
+TEST(Pipeline, RelabellingRefusesWhatHasNoSpectrum) {
+  const TemporaryFolder folder;
+  RelabelJob job;
+  job.input = cube_file(folder);
+  job.output = folder.file("out.ply");
+  job.sigma_deg = 12;
+  test::expect_error<InputError>([&] { (void)run_relabel(job); }, "cube.ply", "spectrum_from");
+  job.sigma_deg = 91;
+  test::expect_error<InvalidArgument>([&] { (void)run_relabel(job); }, "--sigma", "91");
+  job.sigma_deg = 12;
+  job.output = job.input;
+  test::expect_error<InvalidArgument>([&] { (void)run_relabel(job); }, "is the input");
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(Pipeline, ASpectrumNeedsAnOutputThatHoldsLists) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = folder.file("does-not-exist");
+  job.output = folder.file("out.csv");
+  job.options["spectrum"] = 1;
+  test::expect_error<InvalidArgument>([&] { (void)run_detect(job); }, "--spectrum", "out.csv", ".ply");
+  job.options["spectrum"] = 0;
+  EXPECT_THROW((void)run_detect(job), InputError);
+}
+
+TEST(Pipeline, ASpectrumDoesNotOutliveItsLabels) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = cube_file(folder);
+  job.output = folder.file("plain.ply");
+  job.options["sigma"] = 25;
+  (void)run_detect(job);
+  job.options["spectrum"] = 1;
+  job.output = folder.file("spectrum.ply");
+  (void)run_detect(job);
+  EXPECT_EQ(read_cloud(job.output).cloud.comments, std::vector<std::string>{"keenline sigma 25"});
+
+  job.input = folder.file("spectrum.ply");
+  job.output = folder.file("again.ply");
+  DetectReport report = run_detect(job);
+  EXPECT_EQ(report.notes.size(), 7U);
+  EXPECT_EQ(TemporaryFolder::read(job.output), TemporaryFolder::read(job.input));
+
+  job.options["spectrum"] = 0;
+  report = run_detect(job);
+  EXPECT_EQ(std::count_if(report.notes.begin(), report.notes.end(),
+                          [](const std::string& note) { return note.find("left out") != std::string::npos; }),
+            3);
+  EXPECT_EQ(TemporaryFolder::read(job.output), TemporaryFolder::read(folder.file("plain.ply")));
+}
+
 TEST(Pipeline, AddLabelsChecksTheLength) {
   PointCloud cloud;
   cloud.positions.resize(3);
@@ -111,6 +197,21 @@ TEST(Pipeline, AddLabelsChecksTheLength) {
   labels.kind.resize(2);
   labels.score.resize(2);
   EXPECT_THROW(add_labels(cloud, labels), InvalidArgument);
+}
+
+TEST(Pipeline, LabelsWithoutScoresLeaveTheScore) {
+  PointCloud cloud;
+  cloud.positions.resize(1);
+  FeatureLabels labels;
+  labels.kind = {Kind::Edge};
+  labels.clusters = {2};
+  labels.score = {41.5F};
+  EXPECT_TRUE(add_labels(cloud, labels).empty());
+  labels.score.clear();
+  labels.kind = {Kind::Flat};
+  EXPECT_EQ(add_labels(cloud, labels), (std::vector<std::string>{"feature", "kind", "clusters"}));
+  EXPECT_EQ(cloud.attribute("score")->value(0), 41.5);
+  EXPECT_EQ(cloud.attribute("feature")->value(0), 0);
 }
 
 }  // namespace

@@ -1,7 +1,4 @@
-#include <algorithm>
-#include <map>
 #include <memory>
-#include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +12,7 @@
 #include "keenline/pipeline.h"
 
 #include "commands.h"
+#include "label_counts.h"
 #include "method_options.h"
 #include "terminal.h"
 
@@ -28,17 +26,6 @@ struct DetectArguments {
   bool json = false;
   bool quiet = false;
 };
-
-std::map<std::string, std::size_t> counts_per_kind(const FeatureLabels& labels) {
-  std::map<std::string, std::size_t> counts;
-  for (const Kind kind : all_kinds) counts[std::string(name_of(kind))] = 0;
-  for (const Kind kind : labels.kind) ++counts[std::string(name_of(kind))];
-  return counts;
-}
-
-std::size_t count_features(const FeatureLabels& labels) {
-  return static_cast<std::size_t>(std::count_if(labels.kind.begin(), labels.kind.end(), is_feature));
-}
 
 nlohmann::json json_options(const Method& method, const OptionValues& values) {
   nlohmann::json object = nlohmann::json::object();
@@ -61,6 +48,9 @@ void print_json_report(const DetectArguments& arguments, const DetectReport& rep
               {"encoding", report.encoding},
               {"points", report.points},
               {"finite_points", report.finite_points},
+              {"spacing", report.spacing},
+              {"noise", report.noise},
+              {"smoothed", report.smoothed},
               {"method", arguments.job.method},
               {"options", json_options(find_method(arguments.job.method), report.options)},
               {"counts", counts_per_kind(report.labels)},
@@ -69,6 +59,7 @@ void print_json_report(const DetectArguments& arguments, const DetectReport& rep
               {"timings_s",
                {{"read", times.read_s},
                 {"neighborhoods", times.neighborhoods_s},
+                {"smooth", times.smooth_s},
                 {"detect", times.detect_s},
                 {"write", times.write_s},
                 {"total", times.total_s}}},
@@ -94,16 +85,10 @@ void print_summary(const DetectArguments& arguments, const DetectReport& report)
   std::string text =
       fmt::format("{}: {} points ({}, {}), {:.2f} s\n", escaped(arguments.job.input, 4096),
                   grouped(report.points), report.format, escaped(report.encoding), report.times.total_s);
+  text += fmt::format("spacing {:.4g}, noise {:.2f} spacings{}\n", report.spacing, report.noise,
+                      report.smoothed ? ": smoothed before looking" : "");
   text += fmt::format("method {}{}\n", method.name, option_words(method, report.options));
-  const auto counts = counts_per_kind(report.labels);
-  for (const Kind kind : all_kinds) {
-    const std::size_t count = counts.at(std::string(name_of(kind)));
-    if (count == 0) continue;
-    text += fmt::format("  {:<10} {:>12}  {:5.1f} %\n", name_of(kind), grouped(count),
-                        100.0 * static_cast<double>(count) / static_cast<double>(report.points));
-  }
-  text += fmt::format("{} sharp points; result in {}\n", grouped(count_features(report.labels)),
-                      escaped(arguments.job.output, 4096));
+  text += label_lines(report.labels, arguments.job.output);
   print(text);
 }
 
@@ -137,6 +122,16 @@ void add_detect(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("NAME");
   add_method_options(*command, methods(), arguments->method);
+  command
+      ->add_option("--smooth", arguments->job.smoothing,
+                   fmt::format("Look at smoothed positions: yes, no, or auto = where the noise is above {} "
+                               "spacings (default auto; never with --plain)",
+                               noise_worth_smoothing))
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Smoothing>{
+              {"auto", Smoothing::Auto}, {"yes", Smoothing::Yes}, {"no", Smoothing::No}},
+          CLI::ignore_case))
+      ->type_name("auto|yes|no");
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
   command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");

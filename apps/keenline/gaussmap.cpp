@@ -53,8 +53,11 @@ void gaussmap(const CLI::App& command, const GaussmapArguments& arguments) {
                                                         : fmt::format("expected 0 to {}", cloud.size() - 1)));
   }
   const Neighborhoods neighborhoods = find_neighborhoods(cloud, options.neighbors, progress);
-  if (!options.sigma_deg && !options.plain)
-    options.sigma_deg = choose_sigma(cloud, neighborhoods, options, progress);
+  if (options.sigma_rule == SigmaRule::Auto && !arguments.points.empty()) {
+    // Once, not for every point.
+    options.sigma_deg = detect_gauss(cloud, neighborhoods, options, progress).sigma_deg;
+    options.sigma_rule = SigmaRule::Given;
+  }
   progress.clear();
   if (!arguments.sheet.quiet) print_notes(arguments.input, reading.notes);
 
@@ -83,7 +86,7 @@ void add_gaussmap(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   const GaussSphereOptions standard;
   add_sheet_options(*command, arguments->sheet, standard.camera, {standard.width, standard.height});
-  add_method_options(*command, {&find_method("gauss"), 1}, arguments->method);
+  add_method_options(*command, {&find_method("gauss"), 1}, arguments->method, "spectrum");
   command->callback(
       [&action, command, arguments] { action = [command, arguments] { gaussmap(*command, *arguments); }; });
 }

@@ -8,12 +8,13 @@
 
 namespace keenline::cli {
 
-void add_method_options(CLI::App& command, std::span<const Method> methods, MethodArguments& arguments) {
+void add_method_options(CLI::App& command, std::span<const Method> methods, MethodArguments& arguments,
+                        std::string_view without) {
   std::set<std::string, std::less<>> known;
   for (const Method& method : methods) {
     for (const OptionInfo& option : method.options) {
       const std::string name(option.name);
-      if (!known.insert(name).second) continue;
+      if (name == without || !known.insert(name).second) continue;
       if (option.type == OptionInfo::Type::Flag) {
         command.add_flag("--" + name, arguments.flags[name], std::string(option.summary))->group("Method");
         continue;

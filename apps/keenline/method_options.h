@@ -3,6 +3,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "keenline/detect/registry.h"
 
@@ -18,8 +19,10 @@ struct MethodArguments {
   std::map<std::string, bool> flags;
 };
 
-/// One flag for every option of these methods: methods share a name only for the same thing.
-void add_method_options(CLI::App& command, std::span<const Method> methods, MethodArguments& arguments);
+/// One flag for every option of these methods: methods share a name only for the same thing. `without` says
+/// what has no meaning for the command.
+void add_method_options(CLI::App& command, std::span<const Method> methods, MethodArguments& arguments,
+                        std::string_view without = {});
 
 /// What was given, for `method`. \throw InvalidArgument with the allowed range.
 [[nodiscard]] OptionValues parsed_options(const CLI::App& command, const Method& method,

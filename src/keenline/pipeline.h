@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,17 +14,30 @@
 
 namespace keenline {
 
-/// From a file to a file: read, neighborhoods, detect, write.
+/// Whether positions are smoothed before a method looks at them (outputs always hold the original ones).
+enum class Smoothing : std::uint8_t {
+  Auto,  ///< where the noise is above noise_worth_smoothing
+  Yes,
+  No
+};
+
+/// In spacings. Below, smoothing moves points about as far as the noise did.
+inline constexpr double noise_worth_smoothing = 0.2;
+
+/// From a file to a file: read, neighborhoods, smooth if noisy, detect, write.
 struct DetectJob {
   std::string input;
   std::string output;  ///< .ply or .csv
   std::string method = "gauss";
   OptionValues options;  ///< what differs from the method's defaults
+  Smoothing smoothing =
+      Smoothing::Auto;  ///< no matter what, a method's plain form gets the points as they are
 };
 
 struct StageTimes {
   double read_s = 0;
   double neighborhoods_s = 0;
+  double smooth_s = 0;
   double detect_s = 0;
   double write_s = 0;
   double total_s = 0;
@@ -34,6 +49,9 @@ struct DetectReport {
   std::size_t points = 0;
   std::size_t finite_points = 0;
   OptionValues options;  ///< as used: defaults filled in, and what was chosen from the data
+  double spacing = 0;    ///< see estimate_spacing()
+  double noise = 0;      ///< see estimate_noise()
+  bool smoothed = false;
   FeatureLabels labels;
   std::vector<std::string> notes;  ///< what a user should know, one line each
   StageTimes times;
@@ -45,9 +63,41 @@ struct DetectReport {
 [[nodiscard]] DetectReport run_detect(const DetectJob& job, Progress& progress = no_progress(),
                                       const std::function<void(const DetectReport&)>& before_commit = {});
 
-/// Adds the attributes feature (0/1), kind, score and, where the method counts them, clusters; replaces those
-/// of the same names and returns the names it replaced. \throw InvalidArgument unless labels.size() ==
-/// cloud.size().
+/// Other labels for a cloud that holds the labels of all sensitivities: read, relabel, write.
+struct RelabelJob {
+  std::string input;   ///< what run_detect() wrote with the option "spectrum"
+  std::string output;  ///< .ply or .csv
+  /// Empty = choose_sigma().
+  std::optional<double> sigma_deg;
+};
+
+struct RelabelTimes {
+  double read_s = 0;
+  double relabel_s = 0;
+  double write_s = 0;
+  double total_s = 0;
+};
+
+struct RelabelReport {
+  std::string format;  ///< of the input
+  std::string encoding;
+  std::size_t points = 0;
+  std::size_t finite_points = 0;
+  FeatureLabels labels;            ///< without scores; sigma_deg is what was used
+  std::vector<std::string> notes;  ///< what a user should know, one line each
+  RelabelTimes times;
+};
+
+/// The output is what run_detect() writes with this sigma: only feature, kind, clusters and the comment about
+/// sigma differ from the input. `before_commit` as in run_detect().
+/// \throw as run_detect(); InputError when the input holds no usable spectrum, see spectrum_of().
+[[nodiscard]] RelabelReport run_relabel(const RelabelJob& job, Progress& progress = no_progress(),
+                                        const std::function<void(const RelabelReport&)>& before_commit = {});
+
+/// Adds the attributes feature (0/1), kind, score, where the method counts them clusters, and where it is
+/// kept the spectrum with its comment (see spectrum_columns()); replaces those of the same names and returns
+/// the names it replaced. Labels without scores leave the score as it is.
+/// \throw InvalidArgument unless labels.size() == cloud.size().
 std::vector<std::string> add_labels(PointCloud& cloud, const FeatureLabels& labels);
 
 }  // namespace keenline

@@ -27,9 +27,9 @@ class Detect(FolderTest):
             self.assertIn(key, report)
         self.assertEqual(report["points"], 2000)
         self.assertEqual(report["method"], "gauss")
-        self.assertEqual(report["options"], {"neighbors": 16, "sigma": 25, "min-cluster": "auto", "max-clusters": 4,
-                                             "min-sine": 0.001, "flatness": 13.5, "plain": False})
-        self.assertEqual(set(report["timings_s"]), {"read", "neighborhoods", "detect", "write", "total"})
+        self.assertEqual(report["options"], {"neighbors": 16, "sigma": 25, "min-cluster": "auto", "max-clusters": "auto",
+                                             "min-sine": 0.001, "persistence": "auto", "min-support": 1, "band": False, "plain": False, "spectrum": False})
+        self.assertEqual(set(report["timings_s"]), {"read", "neighborhoods", "smooth", "detect", "write", "total"})
         self.assertEqual(sum(report["counts"].values()), 2000)
         self.assertEqual(report["counts"]["edge"] + report["counts"]["corner"] + report["counts"]["peak"], report["feature_points"])
         self.assertGreater(report["peak_memory_bytes"], 1_000_000)
@@ -44,8 +44,8 @@ class Detect(FolderTest):
         def labels(*arguments):
             self.assertEqual(run("detect", source, "-o", self.path("out.ply"), *arguments).returncode, 0)
             return self.path("out.ply").read_bytes()
-        self.assertEqual(labels("--plain"), labels("--plain", "--flatness", "40"))
-        self.assertEqual(labels("--plain"), labels("--flatness", "0", "--sigma", "20"))
+        self.assertEqual(labels("--plain"), labels("--plain", "--band", "--persistence", "7"))
+        self.assertEqual(labels("--plain"), labels("--plain", "--sigma", "20", "--max-clusters", "4", "--min-cluster", "auto"))
         self.assertNotEqual(labels("--plain"), labels())
 
     def test_same_bytes_for_any_number_of_threads_and_every_time(self):
@@ -78,7 +78,7 @@ class WrongUsage(FolderTest):
             (["--sigma", "0"], "up to 90"), (["--sigma", "-5"], "up to 90"), (["--sigma", "90.5"], "up to 90"),
             (["--sigma", "nan"], "up to 90"), (["--sigma", "wide"], "auto"), (["--min-cluster", "0"], "from 1"),
             (["--max-clusters", "1"], "2 to 255"), (["--min-sine", "2"], "0 to 1"), (["--threads", "-1"], "1024"),
-            (["--threads", "many"], "many"), (["--method", "magic"], "gauss"), (["--plain", "--sigma", "auto"], "sigma"),
+            (["--threads", "many"], "many"), (["--method", "magic"], "gauss"), (["--persistence", "0.5"], "from 1 to 90"),
             (["--colour"], "colour"), (["another-file"], "another-file"),
         ]
         for arguments, part in cases:
@@ -192,7 +192,7 @@ class Others(FolderTest):
         gauss = listing["methods"][0]
         self.assertEqual(gauss["name"], "gauss")
         self.assertEqual([o["name"] for o in gauss["options"]],
-                         ["neighbors", "sigma", "min-cluster", "max-clusters", "min-sine", "flatness", "plain"])
+                         ["neighbors", "sigma", "min-cluster", "max-clusters", "min-sine", "persistence", "min-support", "band", "plain", "spectrum"])
         self.assertIn("Weber", run("methods").stdout)
 
     def test_synth_writes_truth_and_repeats_itself(self):

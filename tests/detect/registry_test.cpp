@@ -55,18 +55,37 @@ TEST(Registry, RefusesValuesWithTheAllowedRange) {
   };
   for (const char* const text : {"0", "-5", "90.001", "nan", "inf", "abc", "", "1e400", "20deg"})
     refuses("sigma", text, "more than 0, up to 90 degrees, or auto");
-  for (const char* const text : {"2", "256", "16.5", "auto", "0x10"})
+  for (const char* const text : {"2", "256", "16.5", "many", "0x10"})
     refuses("neighbors", text, "an integer from 3 to 255 points");
   refuses("min-cluster", "0", "an integer from 1");
   refuses("max-clusters", "1", "an integer from 2 to 255");
   refuses("min-sine", "1.5", "from 0 to 1");
 }
 
+TEST(Registry, WhatFollowsTheNoiseIsFilledIn) {
+  const Method& gauss = find_method("gauss");
+  const auto adapted = [&](double noise, const OptionValues& given = {}, std::size_t points = 1000) {
+    OptionValues values = resolve_options(gauss, given);
+    gauss.adapt(values, noise, points);
+    return std::pair(*values.at("neighbors"), *values.at("min-sine"));
+  };
+  EXPECT_EQ(adapted(0), std::pair(16.0, 0.001));
+  EXPECT_EQ(adapted(0.1), std::pair(20.0, 0.1));
+  EXPECT_EQ(adapted(0.2).first, 24.0);
+  EXPECT_EQ(adapted(7), std::pair(24.0, 0.3));
+  EXPECT_EQ(adapted(7, {{"plain", 1.0}}), std::pair(16.0, 0.001));
+  EXPECT_EQ(adapted(7, {{"neighbors", 12.0}, {"min-sine", 0.0}}), std::pair(12.0, 0.0));
+  EXPECT_EQ(adapted(7, {}, 20).first, 19.0);
+  EXPECT_EQ(adapted(7, {}, 3).first, 16.0);
+  EXPECT_TRUE(gauss.is_plain(resolve_options(gauss, {{"plain", 1.0}})));
+  EXPECT_FALSE(gauss.is_plain(resolve_options(gauss, {})));
+}
+
 TEST(Registry, ResolvesDefaultsAndRefusesForeignOptions) {
   const Method& gauss = find_method("gauss");
   const OptionValues values = resolve_options(gauss, {{"sigma", 30.0}});
   EXPECT_EQ(values.at("sigma"), 30.0);
-  EXPECT_EQ(values.at("neighbors"), 16.0);
+  EXPECT_EQ(values.at("neighbors"), std::nullopt);
   EXPECT_EQ(values.at("min-cluster"), std::nullopt);
   EXPECT_EQ(values.at("plain"), 0.0);
   EXPECT_EQ(gauss.reach(values), 16);
@@ -78,9 +97,9 @@ TEST(Registry, ResolvesDefaultsAndRefusesForeignOptions) {
   expect_error<InvalidArgument>([&] { (void)resolve_options(gauss, {{"sigma", 91.0}}); }, "--sigma", "91");
   expect_error<InvalidArgument>(
       [&] {
-        (void)resolve_options(gauss, {{"neighbors", std::nullopt}});
+        (void)resolve_options(gauss, {{"min-support", std::nullopt}});
       },
-      "--neighbors");
+      "--min-support");
 }
 
 TEST(Registry, ReportsWhatWasChosenFromTheData) {
@@ -102,22 +121,30 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(defaults.min_cluster, standard.min_cluster);
   EXPECT_EQ(defaults.max_clusters, standard.max_clusters);
   EXPECT_EQ(defaults.min_sine, standard.min_sine);
-  EXPECT_EQ(defaults.flatness_deg, standard.flatness_deg);
+  EXPECT_EQ(defaults.sigma_rule, standard.sigma_rule);
+  EXPECT_EQ(defaults.persistence, standard.persistence);
+  EXPECT_EQ(defaults.band, standard.band);
   EXPECT_EQ(defaults.plain, standard.plain);
+  EXPECT_EQ(defaults.keep_spectrum, standard.keep_spectrum);
   const GaussOptions given = gauss_options_from(resolve_options(gauss, {{"neighbors", 24.0},
-                                                                        {"sigma", std::nullopt},
+                                                                        {"sigma", 12.5},
                                                                         {"min-cluster", 5.0},
                                                                         {"max-clusters", 6.0},
                                                                         {"min-sine", 0.3},
-                                                                        {"flatness", 7.0},
-                                                                        {"plain", 1.0}}));
+                                                                        {"persistence", 2.5},
+                                                                        {"band", 1.0},
+                                                                        {"plain", 1.0},
+                                                                        {"spectrum", 1.0}}));
   EXPECT_EQ(given.neighbors, 24);
-  EXPECT_EQ(given.sigma_deg, std::nullopt);
+  EXPECT_EQ(given.sigma_rule, SigmaRule::Given);
+  EXPECT_EQ(given.sigma_deg, 12.5);
   EXPECT_EQ(given.min_cluster, 5);
   EXPECT_EQ(given.max_clusters, 6);
   EXPECT_EQ(given.min_sine, 0.3);
-  EXPECT_EQ(given.flatness_deg, 7);
+  EXPECT_EQ(given.persistence, 2.5);
+  EXPECT_TRUE(given.band);
   EXPECT_TRUE(given.plain);
+  EXPECT_TRUE(given.keep_spectrum);
 }
 
 }  // namespace

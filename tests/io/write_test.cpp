@@ -41,6 +41,12 @@ TEST(Write, RefusesOtherExtensionsBeforeAnythingIsWritten) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
+TEST(Write, TellsWhichFormatsHoldLists) {
+  EXPECT_TRUE(holds_lists("a.PLY"));
+  EXPECT_FALSE(holds_lists("a.csv"));
+  test::expect_error<InvalidArgument>([&] { (void)holds_lists("a.txt"); }, "a.txt");
+}
+
 TEST(Write, AFailureLeavesNothing) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(write_cloud(folder.file("no/such/folder.ply"), small_cloud()), OutputError);

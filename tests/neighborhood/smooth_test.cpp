@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "keenline/detect/noise.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/spacing.h"
 #include "keenline/synth/synth.h"

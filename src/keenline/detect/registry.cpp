@@ -20,38 +20,70 @@ namespace {
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 constexpr std::array gauss_options{
-    OptionInfo{"neighbors", "Nearest neighbours whose triangles make the Gauss map",
-               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", 16, ""},
-    OptionInfo{"sigma", "Sensitivity: lines closer than this on average are one direction",
-               OptionInfo::Type::Real, 0, 90, true, "degrees", 20, "auto"},
+    OptionInfo{"neighbors",
+               "Nearest neighbours whose triangles make the Gauss map; auto = 16, up to 24 as noise grows",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
+               "auto"},
+    OptionInfo{"sigma",
+               "Sensitivity: lines closer than this on average are one direction; auto = from the cloud",
+               OptionInfo::Type::Real, 0, 90, true, "degrees", std::nullopt, "auto"},
     OptionInfo{"min-cluster",
                "Lines that a cluster needs to count; auto = a tenth of a point's lines, at least 3",
                OptionInfo::Type::Integer, 1, 32385, false, "lines", std::nullopt, "auto"},
-    OptionInfo{"max-clusters", "Up to so many clusters are a feature, more are curvature",
-               OptionInfo::Type::Integer, 2, 255, false, "clusters", 4, ""},
-    OptionInfo{"min-sine", "Triangles whose sine at the point is smaller have no usable normal",
-               OptionInfo::Type::Real, 0, 1, false, "", 0.001, ""},
-    OptionInfo{"flatness",
-               "Points whose lines deviate less on average from their common direction are flat; 0 = off",
-               OptionInfo::Type::Real, 0, 90, false, "degrees", 13.5, ""},
+    OptionInfo{"max-clusters",
+               "Up to so many directions are a feature, more are curvature; auto = 6, with --plain 4",
+               OptionInfo::Type::Integer, 2, 255, false, "clusters", std::nullopt, "auto"},
+    OptionInfo{"min-sine",
+               "Triangles whose sine at the point is smaller have no usable normal; auto = as the noise",
+               OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
+    OptionInfo{"persistence",
+               "Times higher than its birth that a direction must merge; auto = 3, with --band 2",
+               OptionInfo::Type::Real, 1, 90, false, "", std::nullopt, "auto"},
+    OptionInfo{"min-support", "Sharp points that a sharp point needs among its 16 nearest neighbours",
+               OptionInfo::Type::Integer, 0, 16, false, "points", 1, ""},
+    OptionInfo{"band", "Label all points that see several faces, about two spacings to each side of an edge",
+               OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
     OptionInfo{"plain", "The paper's section 4 with the given parameters and nothing else",
+               OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
+    OptionInfo{"spectrum", "Keep the labels of all other sensitivities, for keenline relabel",
                OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
 };
 
-int gauss_reach(const OptionValues& values) { return static_cast<int>(*values.at("neighbors")); }
+constexpr int paper_neighbors = 16;
+
+int gauss_reach(const OptionValues& values) {
+  return static_cast<int>(values.at("neighbors").value_or(paper_neighbors));
+}
+
+bool gauss_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
+
+void gauss_adapt(OptionValues& values, double noise, std::size_t points) {
+  const bool plain = gauss_is_plain(values);
+  // What a face is known by are the neighbours on it: the error of its direction falls with their number. But
+  // every further neighbour may lie on another face; half as many again is what the benchmark clouds bear.
+  auto& neighbors = values.at("neighbors");
+  if (!neighbors) {
+    const double more = plain ? 0.0 : std::round(8 * std::min(1.0, noise / 0.2));
+    // No more than there are: a small cloud is not to be undecided because it is noisy.
+    neighbors =
+        std::min(paper_neighbors + more, std::max<double>(paper_neighbors, static_cast<double>(points) - 1));
+  }
+  // A triangle of sides one spacing long whose sine is below the noise has a normal that means nothing.
+  auto& min_sine = values.at("min-sine");
+  if (!min_sine) min_sine = plain ? 0.001 : std::clamp(noise, 0.001, 0.3);
+}
 
 FeatureLabels gauss_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
                            Progress& progress) {
-  GaussOptions options = gauss_options_from(values);
-  if (!options.sigma_deg && !options.plain)
-    values["sigma"] = options.sigma_deg = choose_sigma(cloud, neighborhoods, options, progress);
-  return detect_gauss(cloud, neighborhoods, options, progress);
+  FeatureLabels labels = detect_gauss(cloud, neighborhoods, gauss_options_from(values), progress);
+  values["sigma"] = labels.sigma_deg;
+  return labels;
 }
 
 constexpr std::array table{
     Method{"gauss", "Gauss map clustering: directions of the triangles around a point",
            "Weber, Hahmann, Hagen 2010: Methods for Feature Detection in Point Clouds", MethodInput::Points,
-           gauss_options, gauss_reach, gauss_detect},
+           gauss_options, gauss_reach, gauss_adapt, gauss_is_plain, gauss_detect},
 };
 
 [[noreturn]] void refuse(const OptionInfo& option, std::string_view found) {
@@ -118,14 +150,21 @@ OptionValues resolve_options(const Method& method, const OptionValues& given) {
 
 GaussOptions gauss_options_from(const OptionValues& values) {
   GaussOptions options;
-  options.neighbors = static_cast<int>(*values.at("neighbors"));
-  options.sigma_deg = values.at("sigma");
+  options.neighbors = gauss_reach(values);
+  if (const auto& sigma_deg = values.at("sigma")) {
+    options.sigma_rule = SigmaRule::Given;
+    options.sigma_deg = *sigma_deg;
+  }
   if (const auto& min_cluster = values.at("min-cluster"))
     options.min_cluster = static_cast<int>(*min_cluster);
-  options.max_clusters = static_cast<int>(*values.at("max-clusters"));
-  options.min_sine = *values.at("min-sine");
-  options.flatness_deg = *values.at("flatness");
+  if (const auto& max_clusters = values.at("max-clusters"))
+    options.max_clusters = static_cast<int>(*max_clusters);
+  options.min_sine = values.at("min-sine").value_or(options.min_sine);
+  options.persistence = values.at("persistence");
+  options.min_support = static_cast<int>(*values.at("min-support"));
+  options.band = *values.at("band") != 0;
   options.plain = *values.at("plain") != 0;
+  options.keep_spectrum = *values.at("spectrum") != 0;
   return options;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <span>
@@ -45,6 +46,11 @@ struct Method {
   std::span<const OptionInfo> options;
   /// How far a point's label depends on its surroundings, in nearest neighbours.
   int (*reach)(const OptionValues& values);
+  /// Fills in the values that follow the cloud: the noise in spacings (see estimate_noise()), the finite
+  /// points.
+  void (*adapt)(OptionValues& values, double noise, std::size_t points);
+  /// Do the values ask for the published method and nothing else? Then its points are not smoothed either.
+  bool (*is_plain)(const OptionValues& values);
   /// `values` holds every option of the method (see resolve_options); it comes back with what was chosen from
   /// the data.
   FeatureLabels (*detect)(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,

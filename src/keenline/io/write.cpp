@@ -17,9 +17,10 @@ namespace {
 struct Writer {
   std::string_view extension;
   std::vector<std::string> (*write)(const PointCloud& cloud, Sink& sink, Progress& progress);
+  bool holds_lists;  // of varying length
 };
 
-constexpr std::array writers{Writer{".ply", write_ply}, Writer{".csv", write_csv}};
+constexpr std::array writers{Writer{".ply", write_ply, true}, Writer{".csv", write_csv, false}};
 
 const Writer& find_writer(std::string_view path) {
   const auto found = std::find_if(writers.begin(), writers.end(), [&](const Writer& writer) {
@@ -35,6 +36,8 @@ const Writer& find_writer(std::string_view path) {
 }  // namespace
 
 void require_writable_extension(std::string_view path) { (void)find_writer(path); }
+
+bool holds_lists(std::string_view path) { return find_writer(path).holds_lists; }
 
 std::vector<std::string> write_cloud(const std::string& path, const PointCloud& cloud, Progress& progress,
                                      const BeforeCommit& before_commit) {

@@ -13,6 +13,10 @@ namespace keenline {
 /// \throw InvalidArgument unless the extension of `path` names a format that can be written: .ply or .csv.
 void require_writable_extension(std::string_view path);
 
+/// Whether the format that `path` names holds attributes that are lists of varying length: .csv does not.
+/// \throw as require_writable_extension()
+[[nodiscard]] bool holds_lists(std::string_view path);
+
 /// What is to be done when all is written and only the renaming is left, with the notes; what it throws
 /// leaves the target as it was before.
 using BeforeCommit = std::function<void(const std::vector<std::string>& notes)>;

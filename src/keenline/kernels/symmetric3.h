@@ -9,6 +9,16 @@ struct Symmetric3 {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 };
 
+/// matrix += v vᵀ for v = (x, y, z)
+inline void add_outer_product(Symmetric3& matrix, double x, double y, double z) {
+  matrix.xx += x * x;
+  matrix.xy += x * y;
+  matrix.xz += x * z;
+  matrix.yy += y * y;
+  matrix.yz += y * z;
+  matrix.zz += z * z;
+}
+
 /// Eigenvalues in falling order, each with a unit eigenvector.
 struct Eigen3 {
   std::array<double, 3> values;

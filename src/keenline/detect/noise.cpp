@@ -1,0 +1,74 @@
+#include "keenline/detect/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "keenline/cloud.h"
+#include "keenline/detect/faces.h"
+#include "keenline/detect/gauss_map.h"
+#include "keenline/errors.h"
+#include "keenline/kernels/line_angles.h"
+#include "keenline/neighborhood/neighborhoods.h"
+
+namespace keenline {
+namespace {
+
+constexpr std::size_t neighbors_to_use = 16;
+constexpr double no_lines = std::numeric_limits<double>::infinity();
+
+/// The angle, in degrees, within which the densest tenth of the lines at a point lies.
+double scatter_deg(GaussMap& map, FaceWorkspace& workspace, std::vector<Face>& faces) {
+  const int lines = map.lines().count;
+  if (lines < 3) return no_lines;
+  map.cluster();
+  find_faces(map, std::max(3, (lines + 9) / 10), 90, workspace, faces);
+  double birth = no_lines;
+  for (const Face& face : faces) birth = std::min(birth, face.birth);
+  return birth / kernels::angle_units_per_degree;
+}
+
+}  // namespace
+
+double estimate_noise(const PointCloud& cloud, const Neighborhoods& neighborhoods, Progress& progress) {
+  if (neighborhoods.size() != cloud.size())
+    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
+  constexpr std::size_t largest_sample = 2048;
+  const std::size_t step = (cloud.size() + largest_sample - 1) / largest_sample;
+  const std::size_t count = step == 0 ? 0 : (cloud.size() + step - 1) / step;
+  struct Workspace {
+    GaussMap map;
+    FaceWorkspace faces;
+    std::vector<Face> found;
+  };
+  tbb::enumerable_thread_specific<Workspace> workspaces([&] {
+    return Workspace{GaussMap(0.001, progress), {}, {}};
+  });
+  std::vector<double> scatters(count, no_lines);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Workspace& workspace = workspaces.local();
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        progress.check();
+                        const auto neighbors = neighborhoods.of(i * step);
+                        if (neighbors.size() < 3) continue;
+                        workspace.map.collect(cloud.positions, cloud.positions[i * step],
+                                              neighbors.first(std::min(neighbors.size(), neighbors_to_use)));
+                        scatters[i] = scatter_deg(workspace.map, workspace.faces, workspace.found);
+                      }
+                    });
+  scatters.erase(std::remove(scatters.begin(), scatters.end(), no_lines), scatters.end());
+  if (scatters.empty()) return 0;
+  const auto quartile = scatters.begin() + static_cast<std::ptrdiff_t>((scatters.size() - 1) / 4);
+  std::nth_element(scatters.begin(), quartile, scatters.end());
+  // Measured: quartile = 14.4 noise / (1 + 0.54 noise).
+  return *quartile / std::max(14.4 - 0.54 * *quartile, 1.0);
+}
+
+}  // namespace keenline

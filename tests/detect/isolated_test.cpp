@@ -1,0 +1,72 @@
+#include "keenline/detect/isolated.h"
+
+#include <gtest/gtest.h>
+
+#include "keenline/cloud.h"
+#include "keenline/detect/gauss.h"
+#include "keenline/detect/relabel.h"
+#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/synth/synth.h"
+
+namespace keenline {
+namespace {
+
+/// Three points; 0 and 1 are neighbours of each other, 2 has both for neighbours and is nobody's.
+Neighborhoods three() { return {{0, 1, 2, 4}, {1, 0, 0, 1}}; }
+
+/// 0 is an edge from 10 to 40 degrees, 1 from 20 degrees on, 2 a corner at every sensitivity.
+LabelSpectrum spectrum_of_three() {
+  return {{0, 3, 5, 6},
+          {0, 7280, 29120, 0, 14560, 0},
+          {Kind::Curved, Kind::Edge, Kind::Flat, Kind::Curved, Kind::Edge, Kind::Corner},
+          {1, 2, 1, 1, 2, 3}};
+}
+
+TEST(Isolated, SharpPointsNeedSharpNeighbours) {
+  const LabelSpectrum found = without_isolated(spectrum_of_three(), three(), 1);
+  const auto kinds = [&](double sigma_deg) { return relabel(found, sigma_deg).kind; };
+  using Kinds = std::vector<Kind>;
+  EXPECT_EQ(kinds(5), (Kinds{Kind::Curved, Kind::Curved, Kind::Curved}));
+  EXPECT_EQ(kinds(15), (Kinds{Kind::Curved, Kind::Curved, Kind::Corner}));
+  EXPECT_EQ(kinds(30), (Kinds{Kind::Edge, Kind::Edge, Kind::Corner}));
+  EXPECT_EQ(kinds(50), (Kinds{Kind::Flat, Kind::Curved, Kind::Corner}));
+  EXPECT_EQ(relabel(found, 30).clusters, (std::vector<std::uint8_t>{2, 2, 3}));
+}
+
+TEST(Isolated, MoreSupportKeepsLess) {
+  const LabelSpectrum found = without_isolated(spectrum_of_three(), three(), 2);
+  EXPECT_EQ(relabel(found, 30).kind, (std::vector<Kind>{Kind::Curved, Kind::Curved, Kind::Corner}));
+  EXPECT_EQ(relabel(found, 15).kind[2], Kind::Curved);
+  EXPECT_EQ(relabel(without_isolated(spectrum_of_three(), three(), 0), 30).kind,
+            relabel(spectrum_of_three(), 30).kind);
+}
+
+TEST(Isolated, FilteringTheSpectrumIsFilteringAtEverySensitivity) {
+  SynthOptions synth;
+  synth.shape = "fandisk";
+  synth.points = 1500;
+  synth.noise.amount = 0.08;
+  const PointCloud cloud = synthesize(synth).cloud;
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 16);
+  GaussOptions options;
+  options.plain = true;
+  options.keep_spectrum = true;
+  const LabelSpectrum all = *detect_gauss(cloud, neighborhoods, options).spectrum;
+  const LabelSpectrum filtered = without_isolated(all, neighborhoods, 5);
+  std::size_t removed = 0;
+  for (const double sigma_deg : {3.0, 8.0, 15.0, 20.0, 27.5, 40.0, 70.0}) {
+    const FeatureLabels before = relabel(all, sigma_deg);
+    const FeatureLabels after = relabel(filtered, sigma_deg);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      int support = 0;
+      for (const std::uint32_t q : neighborhoods.of(i)) support += is_feature(before.kind[q]) ? 1 : 0;
+      const bool isolated = is_feature(before.kind[i]) && support < 5;
+      removed += isolated ? 1U : 0U;
+      ASSERT_EQ(after.kind[i], isolated ? Kind::Curved : before.kind[i]) << i << " at " << sigma_deg;
+    }
+  }
+  EXPECT_GT(removed, 0U);
+}
+
+}  // namespace
+}  // namespace keenline
