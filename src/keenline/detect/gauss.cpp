@@ -17,6 +17,7 @@
 #include "keenline/detect/faces.h"
 #include "keenline/detect/gauss_map.h"
 #include "keenline/detect/isolated.h"
+#include "keenline/detect/peak.h"
 #include "keenline/detect/relabel.h"
 #include "keenline/errors.h"
 #include "keenline/kernels/line_angles.h"
@@ -153,6 +154,7 @@ class PointLabeler {
   /// The refined decision: which faces are there at the sensitivity, and do they all end here?
   void read_faces() {
     find_faces(map_, min_cluster_, persistence_, workspace_, faces_);
+    is_peak_ = sharpness_ > smallest_angle && is_peak(map_);
     // Everything that the decision depends on changes at the deaths of faces and at the height where all
     // significant lines have become one direction.
     changes_.clear();
@@ -170,6 +172,8 @@ class PointLabeler {
   }
 
   [[nodiscard]] Kind kind_of(std::span<const Face> faces, std::uint16_t sensitivity) const {
+    // Before the faces: the lines of a peak gather in some by chance.
+    if (is_peak_ && sharpness_ > sensitivity) return Kind::Peak;
     if (faces.size() == 1) {
       if (faces[0].is_half) return Kind::Border;
       return sharpness_ <= sensitivity ? Kind::Flat : Kind::Curved;
@@ -215,6 +219,7 @@ class PointLabeler {
   int min_cluster_ = 0;
   double sharpness_ = 0;
   float score_ = 0;
+  bool is_peak_ = false;
 };
 
 /// For each line the smallest line of the cluster that it is in when merging stops at the sensitivity.

@@ -54,10 +54,11 @@ struct GaussOptions {
 /// through the unit sphere; lines are clustered by average linkage on the angle between them.
 ///
 /// Plain: clusters are cut at sigma. One significant cluster is flat, two are an edge, three to max_clusters
-/// a corner, none or more are curved; fewer than 3 lines: flat. Otherwise the significant clusters must be
-/// the faces of a surface that end at the point, see find_faces(): two are an edge, more a corner unless
-/// their normals lie in one plane; one that ends is a border, one that does not is flat when all significant
-/// lines are one direction at sigma, and curved otherwise.
+/// a corner, none or more are curved; fewer than 3 lines: flat. Otherwise the point may be a peak, see
+/// is_peak(), where it is not flat; else the significant clusters must be the faces of a surface that end at
+/// the point, see find_faces(): two are an edge, more a corner unless their normals lie in one plane; one
+/// that ends is a border, one that does not is flat when all significant lines are one direction at sigma,
+/// and curved otherwise.
 ///
 /// The score is the largest angle, in degrees, at which two significant clusters become one (0 below 90/64
 /// degrees). Paper: Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", section 4.
