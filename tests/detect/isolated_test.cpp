@@ -33,6 +33,13 @@ TEST(Isolated, SharpPointsNeedSharpNeighbours) {
   EXPECT_EQ(relabel(found, 30).clusters, (std::vector<std::uint8_t>{2, 2, 3}));
 }
 
+TEST(Isolated, PeaksStandAlone) {
+  LabelSpectrum spectrum = spectrum_of_three();
+  spectrum.kind[5] = Kind::Peak;
+  EXPECT_EQ(relabel(without_isolated(spectrum, three(), 16), 30).kind,
+            (std::vector<Kind>{Kind::Curved, Kind::Curved, Kind::Peak}));
+}
+
 TEST(Isolated, MoreSupportKeepsLess) {
   const LabelSpectrum found = without_isolated(spectrum_of_three(), three(), 2);
   EXPECT_EQ(relabel(found, 30).kind, (std::vector<Kind>{Kind::Curved, Kind::Curved, Kind::Corner}));

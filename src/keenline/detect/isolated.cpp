@@ -54,7 +54,7 @@ std::size_t filter(const LabelSpectrum& spectrum, std::span<const std::uint32_t>
   for (const std::uint16_t at : changes) {
     const std::size_t own = step_at(spectrum, point, at);
     Kind kind = spectrum.kind[own];
-    if (is_feature(kind)) {
+    if (is_feature(kind) && kind != Kind::Peak) {  // a peak is a feature by itself
       const auto support = std::count_if(neighbors.begin(), neighbors.end(), [&](std::uint32_t q) {
         return is_feature(spectrum.kind[step_at(spectrum, q, at)]);
       });
