@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Recall within 0.5 h of a true edge and false positives beyond 2.5 h on shapes with exact truth, mean over ten seeds:
-# of all points that see an edge (--band), looked at as they are.
+# of all points that see an edge (--no-thin), looked at as they are.
 set -euo pipefail
 keenline=${1:?usage: bench/analytic_shapes.sh KEENLINE [detect options]}
 shift
@@ -12,7 +12,7 @@ measure() {
   shift 2
   for seed in 1 2 3 4 5 6 7 8 9 10; do
     "$keenline" synth "$shape" -o "$folder/cloud.ply" --points 6000 --noise "${noise}h" --seed "$seed" --json > "$folder/synth.json"
-    "$keenline" detect "$folder/cloud.ply" -o "$folder/labels.csv" --quiet --band --smooth no "$@"
+    "$keenline" detect "$folder/cloud.ply" -o "$folder/labels.csv" --quiet --no-thin --smooth no "$@"
     python3 - "$folder/synth.json" "$folder/labels.csv" <<'PYTHON'
 import csv, json, sys
 h = json.load(open(sys.argv[1]))["spacing"]

@@ -117,6 +117,7 @@ TEST(Pipeline, RelabellingGivesTheFileOfAFreshRun) {
   RelabelJob again;
   again.input = job.output;
   again.output = folder.file("relabelled.ply");
+  again.sigma_rule = SigmaRule::Given;
   again.sigma_deg = 60;
   const RelabelReport report = run_relabel(again);
   EXPECT_EQ(report.points, 2000U);
@@ -133,7 +134,7 @@ TEST(Pipeline, RelabellingGivesTheFileOfAFreshRun) {
   EXPECT_NE(report.labels.kind, kept.labels.kind);
   EXPECT_EQ(TemporaryFolder::read(again.output), TemporaryFolder::read(job.output));
 
-  again.sigma_deg = std::nullopt;
+  again.sigma_rule = SigmaRule::Auto;
   EXPECT_EQ(run_relabel(again).labels.sigma_deg, kept.labels.sigma_deg);
   EXPECT_EQ(TemporaryFolder::read(again.output), TemporaryFolder::read(again.input));
 }
@@ -141,6 +142,7 @@ TEST(Pipeline, RelabellingGivesTheFileOfAFreshRun) {
 TEST(Pipeline, RelabellingRefusesWhatHasNoSpectrum) {
   const TemporaryFolder folder;
   RelabelJob job;
+  job.sigma_rule = SigmaRule::Given;
   job.input = cube_file(folder);
   job.output = folder.file("out.ply");
   job.sigma_deg = 12;

@@ -32,7 +32,8 @@ nlohmann::json json_options(const Method& method, const OptionValues& values) {
   for (const OptionInfo& option : method.options) {
     const std::string name(option.name);
     const std::optional<double>& value = values.at(name);
-    if (!value) object[name] = option.automatic;
+    const std::string text = text_of(option, value);
+    if (text == option.automatic || text == option.word_for_minimum) object[name] = text;
     else if (option.type == OptionInfo::Type::Flag) object[name] = *value != 0;
     else if (option.type == OptionInfo::Type::Integer) object[name] = static_cast<std::int64_t>(*value);
     else object[name] = *value;
@@ -71,11 +72,11 @@ std::string option_words(const Method& method, const OptionValues& values) {
   for (const OptionInfo& option : method.options) {
     const std::optional<double>& value = values.at(std::string(option.name));
     if (option.type == OptionInfo::Type::Flag) {
-      if (value == 1.0) words += fmt::format(", {}", option.name);
+      if (value != option.default_value)
+        words += fmt::format(", {}{}", value == 1.0 ? "" : "no-", option.name);
       continue;
     }
-    words += fmt::format(", {} {}", option.name,
-                         value ? fmt::format("{}", *value) : std::string(option.automatic));
+    words += fmt::format(", {} {}", option.name, text_of(option, value));
   }
   return words;
 }

@@ -16,7 +16,11 @@ void add_method_options(CLI::App& command, std::span<const Method> methods, Meth
       const std::string name(option.name);
       if (name == without || !known.insert(name).second) continue;
       if (option.type == OptionInfo::Type::Flag) {
-        command.add_flag("--" + name, arguments.flags[name], std::string(option.summary))->group("Method");
+        const bool is_on = option.default_value == 1.0;
+        command
+            .add_flag(is_on ? fmt::format("--{0},!--no-{0}", name) : "--" + name, arguments.flags[name],
+                      fmt::format("{}{}", option.summary, is_on ? " (default on)" : ""))
+            ->group("Method");
         continue;
       }
       const std::string value =
@@ -40,7 +44,7 @@ OptionValues parsed_options(const CLI::App& command, const Method& method, const
     values[name] = option == method.options.end() ? std::nullopt : parse_option(*option, text);
   }
   for (const auto& [name, set] : arguments.flags)
-    if (set) values[name] = 1;
+    if (command.count("--" + name) > 0) values[name] = set ? 1 : 0;
   return values;
 }
 

@@ -33,6 +33,7 @@ nlohmann::json json_option(const OptionInfo& option) {
                         {"maximum", option.maximum},
                         {"unit", option.unit},
                         {"automatic", option.automatic}};
+  if (!option.word_for_minimum.empty()) object["word_for_minimum"] = option.word_for_minimum;
   object["default"] =
       option.default_value ? nlohmann::json(*option.default_value) : nlohmann::json(option.automatic);
   return object;
@@ -63,6 +64,8 @@ void list_as_text() {
         text += fmt::format(
             "\n    {:<15} {}; default {}", "", range_of(option),
             option.default_value ? fmt::format("{}", *option.default_value) : std::string(option.automatic));
+      else if (option.default_value == 1.0)
+        text += fmt::format("; default on, --no-{} turns it off", option.name);
       text += '\n';
     }
   }

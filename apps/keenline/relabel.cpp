@@ -33,6 +33,11 @@ const OptionInfo& sigma_option() {
   return *std::find_if(options.begin(), options.end(), [](const OptionInfo& o) { return o.name == "sigma"; });
 }
 
+nlohmann::json json_sigma(const FeatureLabels& labels) {
+  if (labels.sigma_deg > 0) return labels.sigma_deg;
+  return text_of(sigma_option(), labels.sigma_deg);
+}
+
 void print_json_report(const RelabelArguments& arguments, const RelabelReport& report) {
   const RelabelTimes& times = report.times;
   print_json({{"input", arguments.job.input},
@@ -41,7 +46,7 @@ void print_json_report(const RelabelArguments& arguments, const RelabelReport& r
               {"encoding", report.encoding},
               {"points", report.points},
               {"finite_points", report.finite_points},
-              {"sigma", report.labels.sigma_deg},
+              {"sigma", json_sigma(report.labels)},
               {"counts", counts_per_kind(report.labels)},
               {"feature_points", count_features(report.labels)},
               {"notes", report.notes},
@@ -56,12 +61,15 @@ void print_json_report(const RelabelArguments& arguments, const RelabelReport& r
 void print_summary(const RelabelArguments& arguments, const RelabelReport& report) {
   print(fmt::format("{}: {} points ({}, {}), {:.2f} s\nsigma {}\n{}", escaped(arguments.job.input, 4096),
                     grouped(report.points), report.format, escaped(report.encoding), report.times.total_s,
-                    report.labels.sigma_deg, label_lines(report.labels, arguments.job.output)));
+                    text_of(sigma_option(), report.labels.sigma_deg),
+                    label_lines(report.labels, arguments.job.output)));
 }
 
 void relabel(RelabelArguments& arguments) {
   limit_threads(arguments.threads);
-  arguments.job.sigma_deg = parse_option(sigma_option(), arguments.sigma);
+  const std::optional<double> sigma_deg = parse_option(sigma_option(), arguments.sigma);
+  arguments.job.sigma_deg = sigma_deg.value_or(0);
+  if (sigma_deg) arguments.job.sigma_rule = *sigma_deg > 0 ? SigmaRule::Given : SigmaRule::Local;
   TerminalProgress progress(arguments.quiet);
   // Told before the result appears, as in detect.
   (void)run_relabel(arguments.job, progress, [&](const RelabelReport& report) {

@@ -149,7 +149,7 @@ DetectReport run_detect(const DetectJob& job, Progress& progress,
 
 RelabelReport run_relabel(const RelabelJob& job, Progress& progress,
                           const std::function<void(const RelabelReport&)>& before_commit) {
-  if (job.sigma_deg) (void)sensitivity_of(*job.sigma_deg);
+  if (job.sigma_rule == SigmaRule::Given) (void)sensitivity_of(job.sigma_deg);
   require_usable_output(job.input, job.output);
 
   RelabelReport report;
@@ -158,7 +158,7 @@ RelabelReport run_relabel(const RelabelJob& job, Progress& progress,
   Reading reading = read_cloud(job.input, progress);
   report.times.read_s = stage.lap_s();
   const LabelSpectrum spectrum = spectrum_in(job.input, reading.cloud);
-  report.labels = relabel(spectrum, job.sigma_deg ? *job.sigma_deg : choose_sigma(spectrum));
+  report.labels = relabel(spectrum, job.sigma_rule, job.sigma_deg, progress);
   (void)add_labels(reading.cloud, report.labels);
   set_sigma_comment(reading.cloud, report.labels.sigma_deg);
   report.times.relabel_s = stage.lap_s();

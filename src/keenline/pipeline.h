@@ -8,6 +8,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/detect/registry.h"
+#include "keenline/detect/relabel.h"
 #include "keenline/io/formats.h"
 #include "keenline/labels.h"
 #include "keenline/progress.h"
@@ -67,8 +68,8 @@ struct DetectReport {
 struct RelabelJob {
   std::string input;   ///< what run_detect() wrote with the option "spectrum"
   std::string output;  ///< .ply or .csv
-  /// Empty = choose_sigma().
-  std::optional<double> sigma_deg;
+  SigmaRule sigma_rule = SigmaRule::Auto;
+  double sigma_deg = 0;  ///< with SigmaRule::Given
 };
 
 struct RelabelTimes {
@@ -83,7 +84,7 @@ struct RelabelReport {
   std::string encoding;
   std::size_t points = 0;
   std::size_t finite_points = 0;
-  FeatureLabels labels;            ///< without scores; sigma_deg is what was used
+  FeatureLabels labels;            ///< without scores; sigma_deg is what was used, 0 = a choice per point
   std::vector<std::string> notes;  ///< what a user should know, one line each
   RelabelTimes times;
 };

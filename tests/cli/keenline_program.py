@@ -11,7 +11,7 @@ import unittest
 PROGRAM = os.environ["KEENLINE"]
 
 
-def run(*arguments, timeout=60, **options):
+def run(*arguments, timeout=200, **options):
     """Runs keenline; the result has returncode, stdout and stderr as text."""
     options.setdefault("stdout", subprocess.PIPE)
     return subprocess.run([PROGRAM, *map(str, arguments)], stderr=subprocess.PIPE, timeout=timeout,

@@ -28,7 +28,7 @@ class Detect(FolderTest):
         self.assertEqual(report["points"], 2000)
         self.assertEqual(report["method"], "gauss")
         self.assertEqual(report["options"], {"neighbors": 16, "sigma": 25, "min-cluster": "auto", "max-clusters": "auto",
-                                             "min-sine": 0.001, "persistence": "auto", "min-support": 1, "band": False, "plain": False, "spectrum": False})
+                                             "min-sine": 0.001, "persistence": "auto", "min-support": 1, "thin": True, "plain": False, "spectrum": False})
         self.assertEqual(set(report["timings_s"]), {"read", "neighborhoods", "smooth", "detect", "write", "total"})
         self.assertEqual(sum(report["counts"].values()), 2000)
         self.assertEqual(report["counts"]["edge"] + report["counts"]["corner"] + report["counts"]["peak"], report["feature_points"])
@@ -44,7 +44,7 @@ class Detect(FolderTest):
         def labels(*arguments):
             self.assertEqual(run("detect", source, "-o", self.path("out.ply"), *arguments).returncode, 0)
             return self.path("out.ply").read_bytes()
-        self.assertEqual(labels("--plain"), labels("--plain", "--band", "--persistence", "7"))
+        self.assertEqual(labels("--plain"), labels("--plain", "--no-thin", "--persistence", "7"))
         self.assertEqual(labels("--plain"), labels("--plain", "--sigma", "20", "--max-clusters", "4", "--min-cluster", "auto"))
         self.assertNotEqual(labels("--plain"), labels())
 
@@ -192,7 +192,7 @@ class Others(FolderTest):
         gauss = listing["methods"][0]
         self.assertEqual(gauss["name"], "gauss")
         self.assertEqual([o["name"] for o in gauss["options"]],
-                         ["neighbors", "sigma", "min-cluster", "max-clusters", "min-sine", "persistence", "min-support", "band", "plain", "spectrum"])
+                         ["neighbors", "sigma", "min-cluster", "max-clusters", "min-sine", "persistence", "min-support", "thin", "plain", "spectrum"])
         self.assertIn("Weber", run("methods").stdout)
 
     def test_synth_writes_truth_and_repeats_itself(self):

@@ -262,7 +262,7 @@ class Outputs(FolderTest):
         self.assertEqual(temporary_files(self.folder), [])
 
     def test_a_folder_that_vanishes_during_the_run(self):
-        source = self.cube(20000, "noisy.ply", "--noise", "0.1h")
+        source = self.cube(20000 if not SANITIZED else 2000, "noisy.ply", "--noise", "0.1h")
         self.path("sub").mkdir()
         process = subprocess.Popen([PROGRAM, "detect", str(source), "-o", str(self.path("sub/out.ply"))],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -274,7 +274,7 @@ class Outputs(FolderTest):
         self.assertEqual(self.names(), ["noisy.ply"])
 
     def test_an_input_that_is_replaced_or_deleted_during_the_run(self):
-        source = self.cube(5000, "noisy.ply", "--noise", "0.1h")
+        source = self.cube(5000 if not SANITIZED else 1000, "noisy.ply", "--noise", "0.1h")
         self.assertEqual(run("detect", source, "-o", self.path("expected.ply")).returncode, 0)
         for change in (lambda: source.unlink(), lambda: os.replace(self.cube(100, "other.ply"), source)):
             kept = source.read_bytes()

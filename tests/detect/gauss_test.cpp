@@ -255,7 +255,7 @@ TEST_P(GaussOnAnalyticShapes, MeetsTheSpecification) {
     GTEST_SKIP() << "statistics over many clouds: minutes under sanitizers, which other tests feed";
   const Expected& e = GetParam();
   GaussOptions options;
-  options.band = true;
+  options.thin = false;
   options.min_sine = e.min_sine;
   options.neighbors = e.neighbors;
   Rates mean{0, 0};
@@ -380,7 +380,7 @@ TEST(Gauss, ChosenSigmaFindsTheEdgesOfSharpAndObtuseShapes) {
   for (const char* const name : {"cube", "icosahedron", "cylinder"}) {
     const SynthCloud truth = shape(name, 4000);
     GaussOptions options;
-    options.band = true;
+    options.thin = false;
     options.persistence = 2;
     const Rates found = rates(truth, detect(truth.cloud, options));
     EXPECT_GE(found.recall, 0.93) << name;

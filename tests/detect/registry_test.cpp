@@ -123,7 +123,7 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(defaults.min_sine, standard.min_sine);
   EXPECT_EQ(defaults.sigma_rule, standard.sigma_rule);
   EXPECT_EQ(defaults.persistence, standard.persistence);
-  EXPECT_EQ(defaults.band, standard.band);
+  EXPECT_EQ(defaults.thin, standard.thin);
   EXPECT_EQ(defaults.plain, standard.plain);
   EXPECT_EQ(defaults.keep_spectrum, standard.keep_spectrum);
   const GaussOptions given = gauss_options_from(resolve_options(gauss, {{"neighbors", 24.0},
@@ -132,7 +132,7 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
                                                                         {"max-clusters", 6.0},
                                                                         {"min-sine", 0.3},
                                                                         {"persistence", 2.5},
-                                                                        {"band", 1.0},
+                                                                        {"thin", 0.0},
                                                                         {"plain", 1.0},
                                                                         {"spectrum", 1.0}}));
   EXPECT_EQ(given.neighbors, 24);
@@ -142,7 +142,7 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(given.max_clusters, 6);
   EXPECT_EQ(given.min_sine, 0.3);
   EXPECT_EQ(given.persistence, 2.5);
-  EXPECT_TRUE(given.band);
+  EXPECT_FALSE(given.thin);
   EXPECT_TRUE(given.plain);
   EXPECT_TRUE(given.keep_spectrum);
 }

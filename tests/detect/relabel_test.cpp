@@ -64,6 +64,24 @@ TEST(Relabel, StepsBeginExactlyWhereTheySay) {
   EXPECT_EQ(relabel({}, 20).size(), 0U);
 }
 
+TEST(Relabel, LocallyTakesTheKindThatHoldsOverTheWidestRange) {
+  // From 8 to 10, 10 to 30 and 30 to 45 degrees: ratios of 1.25, 3 and 1.5.
+  LabelSpectrum spectrum = three_steps();
+  EXPECT_EQ(local_sensitivity(spectrum, 0), 20 * 728);
+  EXPECT_EQ(relabel_locally(spectrum).kind[0], Kind::Edge);
+  EXPECT_EQ(relabel_locally(spectrum).clusters[0], 2);
+  EXPECT_EQ(relabel(spectrum, SigmaRule::Local, 12).kind, relabel_locally(spectrum).kind);
+  spectrum.from[1] = 9 * 728;
+  spectrum.from[2] = 18 * 728;
+  EXPECT_EQ(relabel_locally(spectrum).kind[0], Kind::Corner);
+  // Steps of one kind are one range: from 8 to 20 degrees against 20 to 45.
+  spectrum = {{0, 3}, {0, 14 * 728, 20 * 728}, {Kind::Edge, Kind::Edge, Kind::Curved}, {3, 2, 1}};
+  EXPECT_EQ(relabel_locally(spectrum).kind[0], Kind::Edge);
+  EXPECT_EQ(relabel_locally(spectrum).clusters[0], 2);
+  spectrum = {{0, 1}, {0}, {Kind::Undecided}, {0}};
+  EXPECT_EQ(relabel_locally(spectrum).kind[0], Kind::Undecided);
+}
+
 TEST(Relabel, SensitivitiesAreWholeUnits) {
   EXPECT_EQ(sensitivity_of(90), 65520);
   EXPECT_EQ(sensitivity_of(20), 14560);
@@ -90,6 +108,7 @@ TEST(ChooseSigma, TakesTheLargestOfTheStableRange) {
   EXPECT_NEAR(sigma_deg, 32, 90.0 / 64);
   EXPECT_LE(sigma_deg, 32);
   EXPECT_EQ(choose_sigma({}), 20);
+  EXPECT_EQ(relabel(spectrum, SigmaRule::Auto, 0).sigma_deg, sigma_deg);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "keenline/cloud.h"
+#include "keenline/detect/crease.h"
 #include "keenline/detect/faces.h"
 #include "keenline/detect/gauss_map.h"
 #include "keenline/detect/isolated.h"
@@ -77,7 +78,7 @@ class PointLabeler {
         neighborhoods_(neighborhoods),
         options_(options),
         max_clusters_(options.max_clusters.value_or(options.plain ? 4 : 6)),
-        persistence_(options.persistence.value_or(options.band ? 2 : 3)),
+        persistence_(options.persistence.value_or(options.thin ? 3 : 2)),
         map_(options.min_sine, progress) {}
 
   /// Afterwards the others are those of the point.
@@ -155,6 +156,7 @@ class PointLabeler {
   void read_faces() {
     find_faces(map_, min_cluster_, persistence_, workspace_, faces_);
     is_peak_ = sharpness_ > smallest_angle && is_peak(map_);
+    is_beside_ = options_.thin && faces_.size() > 1 && is_beside_crease(map_, faces_);
     // Everything that the decision depends on changes at the deaths of faces and at the height where all
     // significant lines have become one direction.
     changes_.clear();
@@ -178,10 +180,9 @@ class PointLabeler {
       if (faces[0].is_half) return Kind::Border;
       return sharpness_ <= sensitivity ? Kind::Flat : Kind::Curved;
     }
-    const bool all_end = std::all_of(faces.begin(), faces.end(), [](const Face& face) { return face.ends; });
-    if (faces.empty() || (!all_end && !options_.band) ||
-        faces.size() > static_cast<std::size_t>(max_clusters_))
-      return Kind::Curved;
+    if (faces.empty() || faces.size() > static_cast<std::size_t>(max_clusters_)) return Kind::Curved;
+    const auto ends = [](const Face& face) { return face.ends; };
+    if (options_.thin && (is_beside_ || !std::all_of(faces.begin(), faces.end(), ends))) return Kind::Curved;
     return faces.size() > 2 && span_space(faces) ? Kind::Corner : Kind::Edge;
   }
 
@@ -220,6 +221,7 @@ class PointLabeler {
   double sharpness_ = 0;
   float score_ = 0;
   bool is_peak_ = false;
+  bool is_beside_ = false;
 };
 
 /// For each line the smallest line of the cluster that it is in when merging stops at the sensitivity.
@@ -280,6 +282,17 @@ LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighbo
   return spectrum;
 }
 
+LabelSpectrum spectrum_of_one(std::span<const Step> steps) {
+  LabelSpectrum spectrum;
+  for (const Step& step : steps) {
+    spectrum.from.push_back(step.from);
+    spectrum.kind.push_back(step.kind);
+    spectrum.clusters.push_back(step.clusters);
+  }
+  spectrum.offsets.push_back(steps.size());
+  return spectrum;
+}
+
 }  // namespace
 
 FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighborhoods,
@@ -290,12 +303,10 @@ FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighbo
   LabelSpectrum spectrum = label_points(cloud, neighborhoods, options, progress, score);
   if (!options.plain && options.min_support > 0)
     spectrum = without_isolated(spectrum, neighborhoods, options.min_support, progress);
-  double sigma_deg = options.sigma_deg;
-  if (options.sigma_rule == SigmaRule::Auto)
-    sigma_deg = options.plain ? default_sigma_deg : choose_sigma(spectrum);
-  FeatureLabels labels = relabel(spectrum, sigma_deg);
+  const bool is_the_papers = options.plain && options.sigma_rule == SigmaRule::Auto;
+  FeatureLabels labels = is_the_papers ? relabel(spectrum, default_sigma_deg)
+                                       : relabel(spectrum, options.sigma_rule, options.sigma_deg, progress);
   labels.score = std::move(score);
-  labels.sigma_deg = sigma_deg;
   if (options.keep_spectrum) labels.spectrum = std::move(spectrum);
   return labels;
 }
@@ -306,14 +317,16 @@ PointGaussMap gauss_map(const PointCloud& cloud, const Neighborhoods& neighborho
   if (point >= cloud.size())
     throw InvalidArgument(fmt::format("point {} of a cloud of {} points", point, cloud.size()));
   PointGaussMap result;
-  result.sigma_deg = options.sigma_rule == SigmaRule::Given
-                         ? options.sigma_deg
-                         : detect_gauss(cloud, neighborhoods, options, progress).sigma_deg;
-  const std::uint16_t sensitivity = sensitivity_of(result.sigma_deg);
+  result.sigma_deg = options.sigma_deg;
+  if (options.sigma_rule == SigmaRule::Auto)
+    result.sigma_deg = detect_gauss(cloud, neighborhoods, options, progress).sigma_deg;
   PointLabeler labeler(cloud, neighborhoods, options, progress);
   labeler.label(point);
-  for (const Step& step : labeler.steps())
-    if (step.from <= sensitivity) result.kind = step.kind;
+  const LabelSpectrum own = spectrum_of_one(labeler.steps());
+  const bool is_local = options.sigma_rule == SigmaRule::Local;
+  const std::uint16_t sensitivity = is_local ? local_sensitivity(own, 0) : sensitivity_of(result.sigma_deg);
+  if (is_local) result.sigma_deg = sensitivity / angle_units_per_degree;
+  result.kind = own.kind[step_at(own, 0, sensitivity)];
 
   const kernels::Lines lines = labeler.map().lines();
   const auto count = static_cast<std::size_t>(lines.count);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "keenline/detect/relabel.h"
 #include "keenline/labels.h"
 #include "keenline/progress.h"
 
@@ -14,16 +15,11 @@ namespace keenline {
 struct Neighborhoods;
 struct PointCloud;
 
-/// Who chooses the sensitivity.
-enum class SigmaRule : std::uint8_t {
-  Given,  ///< the caller: sigma_deg
-  Auto,   ///< one for the whole cloud by choose_sigma(); with plain, the paper's 20 degrees
-};
-
 struct GaussOptions {
   /// Neighbours that a point needs to be decided; with fewer it is undecided. 3 to 255.
   int neighbors = 16;
-  /// Sensitivity: lines closer than this on average are one direction.
+  /// Sensitivity: lines closer than this on average are one direction. With plain, Auto is the paper's 20
+  /// degrees.
   SigmaRule sigma_rule = SigmaRule::Auto;
   /// Degrees, 0 < sigma_deg <= 90, in steps of 1/728; used with SigmaRule::Given only.
   double sigma_deg = 20;
@@ -36,14 +32,16 @@ struct GaussOptions {
   /// Triangles whose sine at the point is below this have no usable normal and are skipped. 0 to 1.
   double min_sine = 0.001;
   /// How many times higher than its birth a cluster must merge with an older one to be a direction of its
-  /// own; see find_faces(). 1 to 90. Empty = 3, or 2 with band, where nothing else tells an edge from chance.
+  /// own; see find_faces(). 1 to 90. Empty = 3, or 2 unless thin, where nothing else tells an edge from
+  /// chance.
   std::optional<double> persistence;
   /// Sharp points with fewer sharp points among their 16 nearest neighbours are not taken for sharp: chance,
   /// not a line. 0 to 16.
   int min_support = 1;
-  /// Label the whole band of points that see several faces, about two spacings to each side of an edge, and
-  /// not only those at which the faces end.
-  bool band = false;
+  /// Of the band of points that see several faces, about two spacings to each side of an edge, only those at
+  /// which the faces end and for which is_beside_crease() does not hold: one point thin where points lie on
+  /// the edge.
+  bool thin = true;
   /// The paper's section 4 with these parameters and nothing else.
   bool plain = false;
   /// Return the labels of all other sensitivities too: FeatureLabels::spectrum.
@@ -75,7 +73,7 @@ struct PointGaussMap {
   std::vector<int> cluster;  ///< of every line: its place in sizes, or -1 when its cluster is not significant
   std::vector<int> sizes;    ///< lines of every significant cluster, largest first
   Kind kind = Kind::Undecided;  ///< as detect_gauss() has it before isolated points are filtered
-  double sigma_deg = 0;         ///< where it is cut
+  double sigma_deg = 0;         ///< where it is cut; with SigmaRule::Local in the middle of its range
 };
 
 /// Cost: as detect_gauss() when sigma is to be chosen from the cloud, that of one point otherwise.

@@ -25,8 +25,9 @@ constexpr std::array gauss_options{
                OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
                "auto"},
     OptionInfo{"sigma",
-               "Sensitivity: lines closer than this on average are one direction; auto = from the cloud",
-               OptionInfo::Type::Real, 0, 90, true, "degrees", std::nullopt, "auto"},
+               "Sensitivity: lines closer than this on average are one direction; auto = one from the cloud, "
+               "local = one for every point",
+               OptionInfo::Type::Real, 0, 90, true, "degrees", std::nullopt, "auto", "local"},
     OptionInfo{"min-cluster",
                "Lines that a cluster needs to count; auto = a tenth of a point's lines, at least 3",
                OptionInfo::Type::Integer, 1, 32385, false, "lines", std::nullopt, "auto"},
@@ -37,12 +38,13 @@ constexpr std::array gauss_options{
                "Triangles whose sine at the point is smaller have no usable normal; auto = as the noise",
                OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
     OptionInfo{"persistence",
-               "Times higher than its birth that a direction must merge; auto = 3, with --band 2",
+               "Times higher than its birth that a direction must merge; auto = 3, with --no-thin 2",
                OptionInfo::Type::Real, 1, 90, false, "", std::nullopt, "auto"},
     OptionInfo{"min-support", "Sharp points that a sharp point needs among its 16 nearest neighbours",
                OptionInfo::Type::Integer, 0, 16, false, "points", 1, ""},
-    OptionInfo{"band", "Label all points that see several faces, about two spacings to each side of an edge",
-               OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
+    OptionInfo{"thin",
+               "Of the band of points that see an edge, two spacings to each side, those nearest to it",
+               OptionInfo::Type::Flag, 0, 1, false, "", 1, ""},
     OptionInfo{"plain", "The paper's section 4 with the given parameters and nothing else",
                OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
     OptionInfo{"spectrum", "Keep the labels of all other sensitivities, for keenline relabel",
@@ -91,7 +93,8 @@ constexpr std::array table{
 }
 
 void require_in_range(const OptionInfo& option, double value, std::string_view found) {
-  const bool above = option.minimum_excluded ? value > option.minimum : value >= option.minimum;
+  const bool minimum_allowed = !option.minimum_excluded || !option.word_for_minimum.empty();
+  const bool above = minimum_allowed ? value >= option.minimum : value > option.minimum;
   if (!above || !(value <= option.maximum)) refuse(option, found);
   if (option.type != OptionInfo::Type::Real && value != std::floor(value)) refuse(option, found);
 }
@@ -119,13 +122,23 @@ std::string range_of(const OptionInfo& option) {
     text += fmt::format("{} {}", option.minimum_excluded ? ", up to" : " to", option.maximum);
   if (!option.unit.empty()) text += fmt::format(" {}", option.unit);
   if (!option.automatic.empty()) text += fmt::format(", or {}", option.automatic);
+  if (!option.word_for_minimum.empty()) text += fmt::format(", or {}", option.word_for_minimum);
   return text;
+}
+
+std::string text_of(const OptionInfo& option, const std::optional<double>& value) {
+  if (!value) return std::string(option.automatic);
+  if (!option.word_for_minimum.empty() && *value == option.minimum)
+    return std::string(option.word_for_minimum);
+  return fmt::format("{}", *value);
 }
 
 std::optional<double> parse_option(const OptionInfo& option, std::string_view text) {
   if (!option.automatic.empty() && text == option.automatic) return std::nullopt;
+  if (!option.word_for_minimum.empty() && text == option.word_for_minimum) return option.minimum;
   double value = 0;
   if (parse_number(text, value) != Parsed::Ok) refuse(option, quoted(text));
+  if (option.minimum_excluded && value == option.minimum) refuse(option, quoted(text));
   require_in_range(option, value, quoted(text));
   return value;
 }
@@ -152,7 +165,7 @@ GaussOptions gauss_options_from(const OptionValues& values) {
   GaussOptions options;
   options.neighbors = gauss_reach(values);
   if (const auto& sigma_deg = values.at("sigma")) {
-    options.sigma_rule = SigmaRule::Given;
+    options.sigma_rule = *sigma_deg > 0 ? SigmaRule::Given : SigmaRule::Local;
     options.sigma_deg = *sigma_deg;
   }
   if (const auto& min_cluster = values.at("min-cluster"))
@@ -162,7 +175,7 @@ GaussOptions gauss_options_from(const OptionValues& values) {
   options.min_sine = values.at("min-sine").value_or(options.min_sine);
   options.persistence = values.at("persistence");
   options.min_support = static_cast<int>(*values.at("min-support"));
-  options.band = *values.at("band") != 0;
+  options.thin = *values.at("thin") != 0;
   options.plain = *values.at("plain") != 0;
   options.keep_spectrum = *values.at("spectrum") != 0;
   return options;

@@ -30,6 +30,8 @@ struct OptionInfo {
   std::optional<double> default_value;
   /// The word for "chosen from the data" (usually "auto"); empty when a number is needed.
   std::string_view automatic;
+  /// A word that stands for the minimum where that is excluded, as "local" for a sigma of 0; or empty.
+  std::string_view word_for_minimum = {};
 };
 
 /// Values given by a user, by option name; an empty value stands for the option's `automatic`.
@@ -65,6 +67,9 @@ struct Method {
 
 /// "more than 0, up to 90 degrees, or auto": what a message or a help text says of an option's range.
 [[nodiscard]] std::string range_of(const OptionInfo& option);
+
+/// A value as a user would write it: "20", "auto", "local".
+[[nodiscard]] std::string text_of(const OptionInfo& option, const std::optional<double>& value);
 
 /// Text from a user as a value of the option. \throw InvalidArgument with name, text and allowed range.
 [[nodiscard]] std::optional<double> parse_option(const OptionInfo& option, std::string_view text);

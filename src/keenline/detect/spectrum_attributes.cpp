@@ -170,7 +170,8 @@ std::vector<std::string> remove_spectrum(PointCloud& cloud) {
 }
 
 void set_sigma_comment(PointCloud& cloud, double sigma_deg) {
-  const std::string comment = fmt::format("{}{}", sigma_comment, sigma_deg);
+  const std::string comment =
+      sigma_deg > 0 ? fmt::format("{}{}", sigma_comment, sigma_deg) : fmt::format("{}local", sigma_comment);
   const auto found = std::find_if(cloud.comments.begin(), cloud.comments.end(), is_sigma_comment);
   if (found == cloud.comments.end()) {
     cloud.comments.push_back(comment);

@@ -22,7 +22,8 @@ namespace keenline {
 /// Takes the spectrum and its comment out of the cloud; returns the names of the attributes that were there.
 std::vector<std::string> remove_spectrum(PointCloud& cloud);
 
-/// Replaces the comment about the sensitivity where there is one, adds it elsewhere.
+/// 0 degrees: "local", a choice per point. Replaces the comment about the sensitivity where there is one,
+/// adds it elsewhere.
 void set_sigma_comment(PointCloud& cloud, double sigma_deg);
 
 }  // namespace keenline

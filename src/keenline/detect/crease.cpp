@@ -1,0 +1,115 @@
+#include "keenline/detect/crease.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "keenline/detect/faces.h"
+#include "keenline/detect/gauss_map.h"
+#include "keenline/kernels/line_angles.h"
+#include "keenline/kernels/symmetric3.h"
+
+namespace keenline {
+namespace {
+
+constexpr double largest_sine_off_face = 0.64278760968653933;  // 40 degrees
+constexpr double smallest_squared_sine = 0.01;                 // of the angle between the planes: 6 degrees
+constexpr double smallest_flatness = 0.01;  // of variances: a row of points is in no plane of its own
+constexpr double birth_through_point = 4 * kernels::angle_units_per_degree;
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+struct Plane {
+  Point normal;
+  double offset;   // normal * x of its points
+  double scatter;  // root mean square distance of the points that it is fitted to
+};
+
+/// The face whose plane through the point the neighbour is nearest to; none if that is too far off.
+std::size_t nearest_face(const Point& q, double length, std::span<const Face> faces) {
+  std::size_t nearest = faces.size();
+  double smallest = largest_sine_off_face * length;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const double off_face = std::abs(dot(q, faces[f].normal));
+    if (off_face > smallest) continue;
+    smallest = off_face;
+    nearest = f;
+  }
+  return nearest;
+}
+
+/// The plane of the neighbours that belong to one of the faces.
+std::optional<Plane> fit_plane(const GaussMap& map, std::span<const Face> faces, std::size_t face) {
+  std::array<Point, 255> on_face;
+  std::size_t count = 0;
+  Point mean{0, 0, 0};
+  for (std::size_t i = 0; i < map.offsets().size(); ++i) {
+    const Point& q = map.offsets()[i];
+    if (nearest_face(q, map.lengths()[i], faces) != face) continue;
+    on_face[count++] = q;
+    for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += q[axis];
+  }
+  if (count < 3) return std::nullopt;
+  for (double& coordinate : mean) coordinate /= static_cast<double>(count);
+  kernels::Symmetric3 tensor;
+  for (std::size_t i = 0; i < count; ++i)
+    kernels::add_outer_product(tensor, on_face[i][0] - mean[0], on_face[i][1] - mean[1],
+                               on_face[i][2] - mean[2]);
+  const kernels::Eigen3 axes = kernels::eigen_decomposition(tensor);
+  if (axes.values[1] < smallest_flatness * axes.values[0]) return std::nullopt;
+  const Point normal = axes.vectors[2];
+  const double variance = std::max(0.0, axes.values[2]) / static_cast<double>(count);
+  return Plane{normal, dot(normal, mean), std::sqrt(variance)};
+}
+
+/// The distance at which k points lie around one if each has a square of side 1 to itself, inverted.
+double spacing_of(const GaussMap& map) {
+  constexpr double pi = 3.141592653589793;
+  const auto k = static_cast<double>(map.lengths().size());
+  return map.lengths().back() * std::sqrt(pi / (k + 0.5));
+}
+
+}  // namespace
+
+std::optional<Crease> first_crease(const GaussMap& map, std::span<const Face> faces) {
+  const std::optional<Plane> a = fit_plane(map, faces, 0);
+  const std::optional<Plane> b = fit_plane(map, faces, 1);
+  if (!a || !b) return std::nullopt;
+  const double cosine = dot(a->normal, b->normal);
+  const double squared_sine = 1 - cosine * cosine;
+  if (squared_sine < smallest_squared_sine) return std::nullopt;
+
+  // The foot is the combination of the normals that both planes go through.
+  const double along_a = (a->offset - cosine * b->offset) / squared_sine;
+  const double along_b = (b->offset - cosine * a->offset) / squared_sine;
+  Crease crease;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    crease.foot[axis] = along_a * a->normal[axis] + along_b * b->normal[axis];
+    const std::size_t next = (axis + 1) % 3;
+    const std::size_t last = (axis + 2) % 3;
+    crease.direction[axis] =
+        (a->normal[next] * b->normal[last] - a->normal[last] * b->normal[next]) / std::sqrt(squared_sine);
+  }
+  crease.distance = std::sqrt(dot(crease.foot, crease.foot));
+  crease.scatter = std::max(a->scatter, b->scatter);
+  return crease;
+}
+
+bool is_beside_crease(const GaussMap& map, std::span<const Face> faces) {
+  if (std::max(faces[0].birth, faces[1].birth) < birth_through_point) return false;
+  const std::optional<Crease> crease = first_crease(map, faces);
+  if (!crease) return false;
+  const double spacing = spacing_of(map);
+  if (crease->distance - 2 * crease->scatter <= 0.5 * spacing) return false;
+  int better = 0;
+  for (const Point& q : map.offsets()) {
+    const Point from_foot{q[0] - crease->foot[0], q[1] - crease->foot[1], q[2] - crease->foot[2]};
+    const double along = dot(from_foot, crease->direction);
+    const double squared_distance = dot(from_foot, from_foot) - along * along;
+    const bool is_near = std::abs(along) < 2.5 * spacing;
+    if (is_near && squared_distance < 0.25 * crease->distance * crease->distance) ++better;
+  }
+  return better >= 2;
+}
+
+}  // namespace keenline
