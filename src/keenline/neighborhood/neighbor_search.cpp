@@ -1,0 +1,189 @@
+#include "keenline/neighborhood/neighbor_search.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "keenline/errors.h"
+#include "keenline/memory.h"
+#include "keenline/neighborhood/box_tree.h"
+#include "keenline/neighborhood/surroundings.h"
+
+namespace keenline {
+namespace {
+
+constexpr std::uint32_t group_capacity = 40;
+constexpr std::size_t groups_per_block = 16;
+constexpr std::size_t points_per_block = 4096;  // at most: thousands may coincide
+
+using Range = tbb::blocked_range<std::size_t>;
+
+void validate(int count) {
+  if (count < min_neighbors || count > max_neighbors)
+    throw InvalidArgument(
+        fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
+}
+
+/// Appends the points at the found locations in the order (distance, index), at most `count`.
+void append_points(const BoxTree& tree, std::span<const Surroundings::Found> found, std::size_t count,
+                   std::vector<std::uint32_t>& points) {
+  if (!tree.has_coincident_points()) {
+    for (const Surroundings::Found& f : found.first(std::min(found.size(), count))) points.push_back(f.point);
+    return;
+  }
+  const std::size_t full = points.size() + count;
+  for (std::size_t begin = 0; begin < found.size() && points.size() < full;) {
+    // Locations at one distance share the order of their points' indices.
+    const auto tied = static_cast<std::ptrdiff_t>(points.size());
+    std::size_t end = begin;
+    for (; end < found.size() && found[end].distance == found[begin].distance; ++end) {
+      const auto there = tree.points_at(found[end].location);
+      const auto enough = there.first(std::min(there.size(), count));
+      points.insert(points.end(), enough.begin(), enough.end());
+    }
+    std::sort(points.begin() + tied, points.end());
+    begin = end;
+  }
+  if (points.size() > full) points.resize(full);
+}
+
+/// What one thread fills blocks with, one after another.
+class BlockWriter {
+ public:
+  BlockWriter(const BoxTree& tree, std::size_t count, const NeighborSearch::Visit& visit, Progress& progress)
+      : tree_(tree), count_(count), visit_(visit), progress_(progress), surroundings_(tree, count) {}
+
+  void write(std::span<const std::uint32_t> groups) {
+    progress_.check();
+    clear();
+    for (const std::uint32_t group : groups) {
+      const BoxTree::Node& node = tree_.nodes()[group];
+      surroundings_.enter(node.box, node.begin);
+      for (std::uint32_t location = node.begin; location < tree_.end_of(group); ++location) {
+        const Point& position = tree_.position_of(tree_.first_point_at(location));
+        neighbors_.clear();
+        append_points(tree_, surroundings_.nearest(position, location), count_, neighbors_);
+        for (const std::uint32_t point : tree_.points_at(location)) add(point);
+      }
+    }
+    flush();
+  }
+
+ private:
+  void add(std::uint32_t point) {
+    points_.push_back(point);
+    block_.indices.insert(block_.indices.end(), neighbors_.begin(), neighbors_.end());
+    block_.offsets.push_back(block_.indices.size());
+    if (points_.size() == points_per_block) flush();
+  }
+
+  void flush() {
+    if (points_.empty()) return;
+    visit_(points_, block_);
+    progress_.advance(points_.size());
+    clear();
+  }
+
+  void clear() {
+    points_.clear();
+    block_.offsets.resize(1);
+    block_.indices.clear();
+  }
+
+  const BoxTree& tree_;
+  std::size_t count_;
+  const NeighborSearch::Visit& visit_;
+  Progress& progress_;
+  Surroundings surroundings_;
+  std::vector<std::uint32_t> neighbors_;  // of one location
+  std::vector<std::uint32_t> points_;
+  Neighborhoods block_;
+};
+
+/// The largest nodes of at most group_capacity locations, and leaves.
+std::vector<std::uint32_t> groups_of(const BoxTree& tree) {
+  std::vector<std::uint32_t> groups;
+  const auto nodes = tree.nodes();
+  for (std::uint32_t n = 0; n < nodes.size();) {
+    const bool is_group = tree.is_leaf(n) || tree.end_of(n) - nodes[n].begin <= group_capacity;
+    if (is_group) groups.push_back(n);
+    n = is_group ? nodes[n].next : n + 1;
+  }
+  return groups;
+}
+
+}  // namespace
+
+NeighborSearch::NeighborSearch(const std::vector<Point>& positions, const Progress& progress)
+    : size_(positions.size()) {
+  constexpr std::size_t bytes_while_built = 48;
+  require_memory(size_ * bytes_while_built, "finding neighbours");
+  tree_ = std::make_unique<const BoxTree>(positions, progress);
+  groups_ = groups_of(*tree_);
+}
+
+NeighborSearch::~NeighborSearch() = default;
+
+std::vector<std::uint32_t> NeighborSearch::nearest(std::uint32_t point, int count) const {
+  validate(count);
+  if (point >= size_)
+    throw InvalidArgument(fmt::format("point: found {}, expected 0 to {}", point, size_ - 1));
+  std::vector<std::uint32_t> neighbors;
+  const auto capacity = static_cast<std::size_t>(count);
+  const std::optional<std::uint32_t> location = tree_->location_of(point);
+  if (!location) return neighbors;
+  const Point& position = tree_->position_of(point);
+  Surroundings surroundings(*tree_, capacity);
+  surroundings.enter({position, position}, *location);
+  append_points(*tree_, surroundings.nearest(position, *location), capacity, neighbors);
+  return neighbors;
+}
+
+void NeighborSearch::for_each_block(int count, const Visit& visit, Progress& progress) const {
+  validate(count);
+  const std::size_t blocks = (groups_.size() + groups_per_block - 1) / groups_per_block;
+  tbb::enumerable_thread_specific<BlockWriter> writers(
+      [&] { return BlockWriter(*tree_, static_cast<std::size_t>(count), visit, progress); });
+  tbb::parallel_for(Range(0, blocks), [&](const Range& range) {
+    BlockWriter& writer = writers.local();
+    for (std::size_t block = range.begin(); block < range.end(); ++block) {
+      const std::size_t first = block * groups_per_block;
+      const std::size_t length = std::min(groups_per_block, groups_.size() - first);
+      writer.write(std::span(groups_).subspan(first, length));
+    }
+  });
+}
+
+Neighborhoods NeighborSearch::all(int count, Progress& progress) const {
+  validate(count);
+  const auto capacity = static_cast<std::size_t>(count);
+  require_memory(size_ * (capacity * sizeof(std::uint32_t) + sizeof(std::uint64_t)), "finding neighbours");
+  // Every finite point finds the same number: all others, up to count, that do not coincide with it.
+  Neighborhoods result;
+  result.offsets.assign(size_ + 1, 0);
+  tbb::parallel_for(Range(0, tree_->location_count(), 4096), [&](const Range& range) {
+    for (std::size_t location = range.begin(); location < range.end(); ++location) {
+      const auto there = tree_->points_at(static_cast<std::uint32_t>(location));
+      for (const std::uint32_t point : there)
+        result.offsets[point + 1] = std::min(tree_->points().size() - there.size(), capacity);
+    }
+  });
+  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.indices.resize(result.offsets.back());
+  const auto copy = [&](std::span<const std::uint32_t> points, const Neighborhoods& block) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto neighbors = block.of(i);
+      std::copy(neighbors.begin(), neighbors.end(),
+                result.indices.begin() + static_cast<std::ptrdiff_t>(result.offsets[points[i]]));
+    }
+  };
+  for_each_block(count, copy, progress);
+  return result;
+}
+
+}  // namespace keenline
