@@ -4,9 +4,9 @@
 set -euo pipefail
 
 level=${1:?usage: scripts/setup.sh build|test|check}
-packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev)
+packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev libhwy-dev)
 tools=(c++ cmake ninja)
-headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h)
+headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h hwy/highway.h)
 case $level in
   build) ;;
   test|check)

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 
 #include "keenline/errors.h"
 #include "keenline/io/output_file.h"
+#include "keenline/kernels/target.h"
 
 #include "commands.h"
 #include "terminal.h"
@@ -68,7 +70,9 @@ int run(int argc, char** argv) {
   keenline::cli::occupy_closed_descriptors();
   keenline::cli::install_signal_handlers();
   CLI::App app("keenline finds what is sharp in a point cloud: edges, corners, peaks.", "keenline");
-  app.set_version_flag("--version", "keenline " KEENLINE_VERSION);
+  // Asked for before anything else, so that a wrong KEENLINE_TARGET is not found out in the midst of things.
+  app.set_version_flag("--version",
+                       "keenline " KEENLINE_VERSION " (" + std::string(keenline::kernels::target()) + ")");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   keenline::cli::Action action;

@@ -107,7 +107,7 @@ class WrongUsage(FolderTest):
         for arguments in (["--help"], ["detect", "--help"], ["synth", "--help"], ["evaluate", "--help"], ["--version"]):
             result = run(*arguments)
             self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
-        self.assertRegex(run("--version").stdout, r"^keenline \d+\.\d+\.\d+\n$")
+        self.assertRegex(run("--version").stdout, r"^keenline \d+\.\d+\.\d+ \(\w+\)\n$")
         self.assertIn("icosahedron", run("synth", "--help").stdout)
 
 

@@ -85,6 +85,23 @@ class SameBytes(FolderTest):
                 labels.add(self.path("out.csv").read_bytes())
             self.assertEqual((len(clouds), len(labels)), (1, 1), (shape, sampling))
 
+    def test_on_every_instruction_set(self):
+        unknown = run("--version", env=dict(os.environ, KEENLINE_TARGET="abacus"))
+        self.assertEqual(unknown.returncode, 2)
+        self.assertRegex(unknown.stderr, r"^keenline: KEENLINE_TARGET: found 'abacus', expected one of scalar[a-z0-9, ]*\n$")
+        names = unknown.stderr.strip().split("expected one of ")[1].split(", ")
+        for shape, sampling, noise in (("cube", "grid", "0"), ("fandisk", "mesh", "0"), ("torus", "scan", "0.2h")):
+            self.assertEqual(run("synth", shape, "-o", self.path("cloud.ply"), "--points", "1500", "--sampling", sampling,
+                                 "--noise", noise).returncode, 0)
+            outputs = set()
+            for name in names:
+                environment = dict(os.environ, KEENLINE_TARGET=name)
+                self.assertRegex(run("--version", env=environment).stdout, r" \(%s\)\n$" % name)
+                result = run("detect", self.path("cloud.ply"), "-o", self.path("out.ply"), "--spectrum", env=environment)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                outputs.add(self.path("out.ply").read_bytes())
+            self.assertEqual(len(outputs), 1, shape)
+
 
 class MemoryPerPoint(FolderTest):
     @unittest.skipIf(SANITIZED, "a sanitizer has its own memory")

@@ -66,8 +66,8 @@ TEST(GaussMapOfAPoint, ScaleAndPlaceAreLost) {
 }
 
 TEST(GaussMapOfAPoint, MemoryIsThatOfThePairs) {
-  EXPECT_EQ(GaussMap::memory(16), 120U * 120U * 4U);
-  EXPECT_EQ(GaussMap::memory(40), 780U * 780U * 8U);
+  EXPECT_EQ(GaussMap::memory(16), 120U * 144U * 4U);
+  EXPECT_EQ(GaussMap::memory(40), 780U * 784U * 8U);
 }
 
 }  // namespace

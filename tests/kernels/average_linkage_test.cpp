@@ -1,11 +1,16 @@
 #include "keenline/kernels/average_linkage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "keenline/kernels/line_angles.h"
+
+#include "support/each_target.h"
 
 namespace keenline::kernels {
 namespace {
@@ -45,7 +50,11 @@ std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
 
 template <typename Sum>
 std::vector<Merge> by_chain(const Matrix& distances, std::size_t n) {
-  std::vector<Sum> sums(distances.begin(), distances.end());
+  const std::size_t row = row_length(static_cast<int>(n));
+  std::vector<Sum> sums(n * row, 4711);
+  for (std::size_t i = 0; i < n; ++i)
+    std::copy_n(distances.begin() + static_cast<std::ptrdiff_t>(i * n), n,
+                sums.begin() + static_cast<std::ptrdiff_t>(i * row));
   std::vector<Merge> merges(n - 1);
   LinkageWorkspace workspace;
   EXPECT_TRUE(average_linkage(sums.data(), static_cast<int>(n), workspace, merges.data()));
@@ -89,7 +98,8 @@ TEST(AverageLinkage, EqualsTheDefinitionOnRandomDistances) {
     const std::size_t n = 2 + seed;
     const Matrix distances = random_matrix(n, 65520, seed);
     const auto expected = sorted_keys(by_definition(distances, n));
-    EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected) << "seed " << seed;
+    on_each_target(
+        [&] { EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected) << "seed " << seed; });
     EXPECT_EQ(sorted_keys(by_chain<std::uint64_t>(distances, n)), expected) << "seed " << seed;
   }
 }
@@ -99,8 +109,11 @@ TEST(AverageLinkage, EqualsTheDefinitionWhereMostDistancesAreTies) {
     for (unsigned seed = 0; seed < 25; ++seed) {
       const std::size_t n = 3 + seed;
       const Matrix distances = random_matrix(n, levels, seed);
-      EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), sorted_keys(by_definition(distances, n)))
-          << levels << " levels, seed " << seed;
+      const auto expected = sorted_keys(by_definition(distances, n));
+      on_each_target([&] {
+        EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected)
+            << levels << " levels, seed " << seed;
+      });
     }
 }
 
@@ -133,12 +146,101 @@ TEST(AverageLinkage, PartsComeBeforeTheWholeAndAreNotHigher) {
   EXPECT_EQ(size[0], 60U);
 }
 
+/// Angles between lines that gather around a few directions: none apart within one when `scatter` is 0, so
+/// that most distances are 0 or equal.
+Matrix gathered_lines(std::size_t n, double scatter, unsigned seed) {
+  std::mt19937 generator(seed);
+  const auto number = [&] { return static_cast<double>(generator()) * 0x1p-31 - 1; };
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> z;
+  for (std::size_t i = 0; i < n; ++i) {
+    double v[3] = {scatter * number(), scatter * number(), scatter * number()};
+    v[generator() % 3] += 1;
+    const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    x.push_back(static_cast<float>(v[0] / length));
+    y.push_back(static_cast<float>(v[1] / length));
+    z.push_back(static_cast<float>(v[2] / length));
+  }
+  Matrix angles(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      angles[i * n + j] = i == j ? 0 : line_angle(x[i] * x[j] + y[i] * y[j] + z[i] * z[j]);
+  return angles;
+}
+
+TEST(AverageLinkage, GivesTheSameListOnEveryTargetForAnyNumberOfItems) {
+  for (std::size_t n = 1; n <= 150; ++n) {
+    const auto seed = static_cast<unsigned>(n);
+    for (const Matrix& distances :
+         {random_matrix(n, 65520, seed), random_matrix(n, 3, seed), random_matrix(n, 1, seed),
+          Matrix(n * n, 0), Matrix(n * n, 65520), gathered_lines(n, 0, seed), gathered_lines(n, 0.05, seed),
+          gathered_lines(n, 1, seed)}) {
+      std::vector<Key> expected;
+      on_each_target([&] {
+        std::vector<Key> found;  // not sorted
+        for (const Merge& m : by_chain<std::uint32_t>(distances, n))
+          found.emplace_back(m.height, m.first, m.second, m.first_size, m.second_size);
+        if (target_is_scalar()) expected = found;
+        ASSERT_EQ(found, expected) << n;
+      });
+    }
+  }
+}
+
+TEST(AverageLinkage, ComparesMeansThatFloatsCannotTellApart) {
+  // Four items far away, at sums that differ by one in 4 * 60000, beside a pair: floats hold 24 bits, and the
+  // lower bits of a key are not even looked at.
+  for (std::uint32_t extra = 0; extra < 4; ++extra) {
+    const std::size_t n = 40;
+    Matrix distances(n * n, 65520);
+    const auto set = [&](std::size_t i, std::size_t j, std::uint32_t d) {
+      distances[i * n + j] = distances[j * n + i] = d;
+    };
+    for (std::size_t i = 0; i < n; ++i) set(i, i, 0);
+    for (std::size_t c = 0; c < 4; ++c)  // clusters of ten
+      for (std::size_t i = 10 * c; i < 10 * c + 10; ++i)
+        for (std::size_t j = 10 * c; j < i; ++j) set(i, j, 7);
+    for (std::size_t i = 0; i < 10;
+         ++i)  // the first is as far from all others, but for one unit of 6.5 million
+      for (std::size_t c = 1; c < 4; ++c)
+        for (std::size_t j = 10 * c; j < 10 * c + 10; ++j) set(i, j, 65000);
+    if (extra > 0) set(0, 10 * extra + 9, 64999);
+    std::vector<Key> expected = sorted_keys(by_definition(distances, n));
+    const auto has_first_partner = [&](std::uint32_t name) {
+      return std::any_of(expected.begin(), expected.end(), [&](const Key& key) {
+        return std::get<1>(key) == 0 && std::get<2>(key) == name && std::get<4>(key) == 10 &&
+               std::get<3>(key) == 10;
+      });
+    };
+    EXPECT_TRUE(has_first_partner(extra == 0 ? 10 : 10 * extra));
+    on_each_target([&] { EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected) << extra; });
+  }
+}
+
+TEST(AverageLinkage, HoldsTheLargestSumsOfVectors) {
+  for (const std::size_t n : {361U, 362U, 363U}) {
+    Matrix distances(n * n, 65520);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (i % 2 == j % 2) distances[i * n + j] = 0;
+    on_each_target([&] {
+      const auto merges = by_chain<std::uint32_t>(distances, n);
+      EXPECT_EQ(merges.back().height, 65520);
+      EXPECT_EQ(merges.back().first_size, (n + 1) / 2);
+      EXPECT_EQ(std::count_if(merges.begin(), merges.end(), [](const Merge& m) { return m.height > 0; }), 1);
+    });
+  }
+}
+
 TEST(AverageLinkage, StopsWhenAsked) {
-  Matrix distances = random_matrix(50, 65520, 1);
-  std::vector<Merge> merges(49);
-  LinkageWorkspace workspace;
-  EXPECT_FALSE(
-      average_linkage(distances.data(), 50, workspace, merges.data(), [](const void*) { return true; }));
+  on_each_target([] {
+    std::vector<std::uint32_t> sums(50 * row_length(50));
+    std::vector<Merge> merges(49);
+    LinkageWorkspace workspace;
+    EXPECT_FALSE(
+        average_linkage(sums.data(), 50, workspace, merges.data(), [](const void*) { return true; }));
+  });
 }
 
 }  // namespace

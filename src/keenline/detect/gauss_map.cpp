@@ -5,6 +5,7 @@
 
 #include "keenline/errors.h"
 #include "keenline/kernels/symmetric3.h"
+#include "keenline/kernels/triangle_lines.h"
 
 namespace keenline {
 
@@ -19,9 +20,7 @@ void GaussMap::collect(const std::vector<Point>& positions, const Point& p,
     for (double& coordinate : offset) coordinate = std::ldexp(coordinate, exponent);
     lengths_.push_back(std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]));
   }
-  x_.clear(), y_.clear(), z_.clear();
-  for (std::size_t i = 0; i < offsets_.size(); ++i)
-    for (std::size_t j = i + 1; j < offsets_.size(); ++j) add_line(i, j);
+  find_lines();
 }
 
 /// Fills offsets_ with factor * (q - p); returns the largest coordinate in absolute value.
@@ -39,25 +38,23 @@ double GaussMap::gather_offsets(const std::vector<Point>& positions, const Point
   return largest;
 }
 
-void GaussMap::add_line(std::size_t i, std::size_t j) {
-  const Point& a = offsets_[i];
-  const Point& b = offsets_[j];
-  const Point normal{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-  if (!(length > 0) || length < min_sine_ * (lengths_[i] * lengths_[j])) return;
-  x_.push_back(static_cast<float>(normal[0] / length));
-  y_.push_back(static_cast<float>(normal[1] / length));
-  z_.push_back(static_cast<float>(normal[2] / length));
+void GaussMap::find_lines() {
+  const std::size_t neighbors = offsets_.size();
+  const std::size_t room = neighbors * (neighbors - 1) / 2 + kernels::line_slack;
+  for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(room);
+  const double* const offsets = neighbors == 0 ? nullptr : offsets_.front().data();
+  const int count = kernels::triangle_lines(offsets, lengths_.data(), static_cast<int>(neighbors), min_sine_,
+                                            x_.data(), y_.data(), z_.data());
+  for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(static_cast<std::size_t>(count));
 }
 
 template <typename Sum>
 void GaussMap::cluster(std::vector<Sum>& sums) {
-  const auto n = x_.size();
-  sums.resize(n * n);
+  const auto n = static_cast<int>(x_.size());
+  sums.resize(x_.size() * kernels::row_length(n));
   kernels::line_angles(lines(), sums.data());
   const auto stop = [](const void* progress) { return static_cast<const Progress*>(progress)->cancelled(); };
-  if (!kernels::average_linkage(sums.data(), static_cast<int>(n), workspace_, merges_.data(), stop,
-                                progress_))
+  if (!kernels::average_linkage(sums.data(), n, workspace_, merges_.data(), stop, progress_))
     throw Cancelled();
 }
 
@@ -83,7 +80,8 @@ Point GaussMap::common_direction() const {
 
 std::uint64_t GaussMap::memory(int neighbors) {
   const auto lines = static_cast<std::uint64_t>(neighbors) * static_cast<std::uint64_t>(neighbors - 1) / 2;
-  return lines * lines * (lines <= kernels::largest_count_in_32_bits ? 4 : 8);
+  return lines * kernels::row_length(static_cast<int>(lines)) *
+         (lines <= kernels::largest_count_in_32_bits ? 4 : 8);
 }
 
 }  // namespace keenline

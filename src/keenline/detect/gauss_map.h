@@ -48,7 +48,7 @@ class GaussMap {
  private:
   double gather_offsets(const std::vector<Point>& positions, const Point& p,
                         std::span<const std::uint32_t> neighbors, double factor);
-  void add_line(std::size_t i, std::size_t j);
+  void find_lines();
   template <typename Sum>
   void cluster(std::vector<Sum>& sums);
 

@@ -1,11 +1,244 @@
 #include "keenline/kernels/average_linkage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstring>
+#include <limits>
+#include <numeric>
 #include <utility>
 
+#include "keenline/kernels/line_angles.h"
+#include "keenline/kernels/target.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "keenline/kernels/average_linkage.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// Compiled once for every target.
+HWY_BEFORE_NAMESPACE();
+namespace keenline::kernels::HWY_NAMESPACE {
+namespace {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+// Never called, see target_is_scalar().
+void cluster(std::uint32_t* /*sums*/, int /*count*/, LinkageWorkspace& /*workspace*/, Merge* /*merges*/) {}
+#else
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<std::uint32_t, 8>;
+using Ints = hn::RebindToSigned<Words>;
+using Floats = hn::RebindToFloat<Words>;
+using Word = hn::Vec<Words>;
+
+constexpr std::uint32_t none = 0xFFFF'FFFFU;
+
+/// A sum that no cluster has.
+constexpr std::uint32_t self = 0x8000'0000U;
+
+/// Clusters by name. Rows and columns of clusters that were merged into others stay where they are, and no
+/// more is written there. Rows are brought up to date when they are read: writing every merged cluster into
+/// its column at once would touch a line of the cache for every number.
+struct Clusters {
+  std::uint32_t* sums;
+  std::size_t stride;
+  std::size_t columns;  // whole vectors
+  LinkageWorkspace::Cluster* clusters;
+  float* weights;  // 1 / size; not a number for those that were merged into others, and beyond the last
+  std::uint32_t index_mask;
+  std::uint32_t newest = none;  // of those made of others
+
+  [[nodiscard]] std::uint32_t* row(std::size_t name) const { return sums + name * stride; }
+  [[nodiscard]] LinkageWorkspace::Cluster& operator[](std::size_t name) const { return clusters[name]; }
+};
+
+/// The row of a cluster, with what has become of the others since it was last looked at.
+HWY_INLINE std::uint32_t* current_row(const Clusters& clusters, std::size_t name) {
+  auto& cluster = clusters[name];
+  std::uint32_t* const row = clusters.row(name);
+  row[name] = self;
+  std::uint32_t other = clusters.newest;
+  for (; other != none && clusters[other].birth > cluster.seen; other = clusters[other].older)
+    row[other] = clusters.row(other)[name];
+  cluster.seen = clusters.newest == none ? 0 : clusters[clusters.newest].birth;
+  return row;
+}
+
+/// Means, but for the size of the row's own cluster, as the bits of floats. Those that are not to be found
+/// are negative (a cluster and itself) or not numbers: as unsigned numbers greater than every positive float.
+HWY_INLINE Word keys_of(Word sums, const float* weights) {
+  const Floats df;
+  const auto means = hn::Mul(hn::ConvertTo(df, hn::BitCast(Ints(), sums)), hn::LoadU(df, weights));
+  return hn::BitCast(Words(), means);
+}
+
+/// The two smallest keys of a row, whose last bits give way to their place in the row.
+class TwoSmallest {
+ public:
+  explicit TwoSmallest(std::uint32_t index_mask) : mask_(hn::Set(Words(), ~index_mask)) {}
+
+  HWY_INLINE void add(Word keys) {
+    const Words d;
+    const Word marked = hn::OrAnd(place_, keys, mask_);
+    place_ = hn::Add(place_, hn::Set(d, static_cast<std::uint32_t>(hn::Lanes(d))));
+    second_ = hn::Min(second_, hn::Max(first_, marked));
+    first_ = hn::Min(first_, marked);
+  }
+  [[nodiscard]] HWY_INLINE std::uint32_t first() const {
+    return hn::GetLane(hn::MinOfLanes(Words(), first_));
+  }
+  [[nodiscard]] HWY_INLINE std::uint32_t second(std::uint32_t first) const {
+    const Words d;
+    const auto holds_first = hn::Eq(first_, hn::Set(d, first));
+    return hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(holds_first, second_, first_)));
+  }
+
+ private:
+  Word mask_;
+  Word place_ = hn::Iota(Words(), 0);
+  Word first_ = hn::Set(Words(), none);
+  Word second_ = hn::Set(Words(), none);
+};
+
+/// Among those whose keys are at most `bound` the least fraction, compared crosswise in whole numbers, then
+/// the least name.
+std::uint32_t least_of(const Clusters& clusters, const std::uint32_t* row, std::uint32_t bound) {
+  const Words d;
+  std::uint32_t best = none;
+  for (std::size_t i = 0; i < clusters.columns; i += hn::Lanes(d)) {
+    const Word keys = keys_of(hn::LoadU(d, row + i), clusters.weights + i);
+    const auto found = hn::Eq(hn::Min(keys, hn::Set(d, bound)), keys);
+    if (hn::AllFalse(d, found)) continue;
+    std::uint64_t bits = 0;
+    hn::StoreMaskBits(d, found, reinterpret_cast<std::uint8_t*>(&bits));
+    for (; bits != 0; bits &= bits - 1) {
+      const auto other = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(std::countr_zero(bits));
+      if (best == none ||
+          std::uint64_t{row[other]} * clusters[best].size < std::uint64_t{row[best]} * clusters[other].size)
+        best = other;
+    }
+  }
+  return best;
+}
+
+/// The cluster nearest to the one whose row this is: least mean distance, then least name. Two roundings of a
+/// sum and one of a weight put a key off its mean by a few units in the last place. Those that were cut off
+/// are more: where the rest of two keys differs by more than one, so do the means, and in the same sense.
+HWY_INLINE std::uint32_t nearest_by(const Clusters& clusters, const std::uint32_t* row,
+                                    const TwoSmallest& smallest) {
+  const std::uint32_t first = smallest.first();
+  const std::uint32_t second = smallest.second(first);
+  const std::uint32_t index_mask = clusters.index_mask;
+  const std::uint32_t bound = (first | index_mask) + index_mask + 1;
+  // Sums of 0 are exact, and the first of them has the least name.
+  if (HWY_LIKELY(second > bound || first <= index_mask)) return first & index_mask;
+  return least_of(clusters, row, bound);
+}
+
+HWY_INLINE std::uint32_t nearest(const Clusters& clusters, std::size_t name) {
+  const Words d;
+  const std::uint32_t* const row = current_row(clusters, name);
+  TwoSmallest smallest(clusters.index_mask);
+  for (std::size_t i = 0; i < clusters.columns; i += hn::Lanes(d))
+    smallest.add(keys_of(hn::LoadU(d, row + i), clusters.weights + i));
+  return nearest_by(clusters, row, smallest);
+}
+
+/// Takes a cluster off the list of those made of others.
+HWY_INLINE void retire(Clusters& clusters, const LinkageWorkspace::Cluster& cluster) {
+  if (cluster.birth == 0) return;
+  if (cluster.older != none) clusters[cluster.older].newer = cluster.newer;
+  (cluster.newer != none ? clusters[cluster.newer].older : clusters.newest) = cluster.older;
+}
+
+/// Puts the items of b into a < b; merges are numbered from 1.
+HWY_INLINE Merge join(Clusters& clusters, std::uint32_t a, std::uint32_t b, std::uint32_t number) {
+  auto& first = clusters[a];
+  auto& second = clusters[b];
+  std::uint32_t* const row = current_row(clusters, a);
+  const std::uint32_t* const added = current_row(clusters, b);
+  const double pairs = static_cast<double>(first.size) * second.size;
+  const Merge merge{a, b, first.size, second.size, static_cast<double>(row[b]) / pairs};
+  retire(clusters, first);
+  retire(clusters, second);
+  first.size += second.size;
+  second.size = 0;
+  clusters.weights[a] = 1.0F / static_cast<float>(first.size);
+  clusters.weights[b] = std::numeric_limits<float>::quiet_NaN();
+  if (clusters.newest != none) clusters[clusters.newest].newer = a;
+  first.older = clusters.newest;
+  first.newer = none;
+  first.birth = first.seen = number;
+  clusters.newest = a;
+
+  const Words d;
+  TwoSmallest smallest(clusters.index_mask);
+  for (std::size_t i = 0; i < clusters.columns; i += hn::Lanes(d)) {
+    const Word sums = hn::Add(hn::LoadU(d, row + i), hn::LoadU(d, added + i));
+    hn::StoreU(sums, d, row + i);
+    smallest.add(keys_of(sums, clusters.weights + i));
+  }
+  first.nearest = nearest_by(clusters, row, smallest);
+  first.nearest_size = clusters[first.nearest].size;
+  return merge;
+}
+
+Clusters prepared(std::uint32_t* sums, int count, LinkageWorkspace& workspace) {
+  const auto n = static_cast<std::size_t>(count);
+  const std::size_t lanes = hn::Lanes(Words());
+  const std::size_t columns = (n + lanes - 1) / lanes * lanes;
+  workspace.clusters.assign(
+      columns,
+      {.size = 1, .birth = 0, .seen = 0, .older = none, .newer = none, .nearest = 0, .nearest_size = 0});
+  workspace.weights.assign(columns, std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(workspace.weights.begin(), n, 1.0F);
+  workspace.chain.resize(n);
+  return {sums,
+          row_length(count),
+          columns,
+          workspace.clusters.data(),
+          workspace.weights.data(),
+          static_cast<std::uint32_t>(std::bit_ceil(columns) - 1)};
+}
+
+/// \pre 0 < count <= largest_count_of_vectors
+void cluster(std::uint32_t* sums, int count, LinkageWorkspace& workspace, Merge* merges) {
+  Clusters clusters = prepared(sums, count, workspace);
+  std::uint32_t* const chain = workspace.chain.data();
+  std::size_t length = 0;
+  for (std::uint32_t number = 1; number < static_cast<std::uint32_t>(count);) {
+    if (length == 0) chain[length++] = 0;
+    const std::uint32_t top = chain[length - 1];
+    auto& cluster = clusters[top];
+    // The nearest stays the nearest until it is merged itself, see average_linkage().
+    if (cluster.nearest_size == 0 || clusters[cluster.nearest].size != cluster.nearest_size) {
+      cluster.nearest = nearest(clusters, top);
+      cluster.nearest_size = clusters[cluster.nearest].size;
+    }
+    const std::uint32_t next = cluster.nearest;
+    if (length < 2 || chain[length - 2] != next) {
+      chain[length++] = next;
+      continue;
+    }
+    length -= 2;
+    *merges++ = join(clusters, std::min(top, next), std::max(top, next), number++);
+  }
+}
+
+#endif
+
+}  // namespace
+}  // namespace keenline::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace keenline::kernels {
 namespace {
+
+HWY_EXPORT(cluster);
+
+/// Sums of so many items fit signed numbers: (362 / 2)^2 pairs of at most 65520 units.
+constexpr int largest_count_of_vectors = 362;
 
 using Slot = LinkageWorkspace::Slot;
 
@@ -51,7 +284,7 @@ Merge merged(const Clusters<Sum>& clusters, std::size_t a, std::size_t b) {
           static_cast<double>(clusters.sums[a * clusters.stride + b]) / pairs};
 }
 
-/// Puts b's items into a, and the last active cluster where b was.
+/// Puts b's items into a, and the last active cluster where b was. \pre a < b
 template <typename Sum>
 void join(Clusters<Sum>& clusters, std::size_t a, std::size_t b) {
   Sum* const sums = clusters.sums;
@@ -77,17 +310,24 @@ void join(Clusters<Sum>& clusters, std::size_t a, std::size_t b) {
 template <typename Sum>
 bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* merges,
                      bool (*stop)(const void*), const void* stop_argument) {
+  if constexpr (sizeof(Sum) == 4) {
+    if (!target_is_scalar() && count <= largest_count_of_vectors) {
+      if (stop != nullptr && stop(stop_argument)) return false;  // once: it takes less than a millisecond
+      HWY_DYNAMIC_DISPATCH(cluster)(sums, count, workspace, merges);
+      return true;
+    }
+  }
   const auto n = static_cast<std::size_t>(count);
   workspace.slots.resize(n);
   for (std::size_t i = 0; i < n; ++i) workspace.slots[i] = {static_cast<std::uint32_t>(i), 1};
   // The chain holds slots; each is the nearest of the one before, and pairs come ever closer along it.
   std::vector<std::uint32_t>& chain = workspace.chain;
   chain.clear();
-  Clusters<Sum> clusters{sums, n, workspace.slots.data(), n};
+  Clusters<Sum> clusters{sums, row_length(count), workspace.slots.data(), n};
 
   while (clusters.active > 1) {
     if (stop != nullptr && stop(stop_argument)) return false;
-    if (chain.empty()) chain.push_back(0);
+    if (chain.empty()) chain.push_back(0);  // the lower slot of a pair is kept: item 0 is always there
     const std::size_t top = chain.back();
     const std::size_t next = nearest(clusters, top);
     if (chain.size() < 2 || chain[chain.size() - 2] != next) {
@@ -100,9 +340,8 @@ bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* m
     chain.resize(chain.size() - 2);
     *merges++ = merged(clusters, top, next);
     const std::size_t last = clusters.active - 1;
-    const std::size_t kept = top == last ? next : top;  // so that the joined cluster does not move
-    const std::size_t freed = kept == top ? next : top;
-    join(clusters, kept, freed);
+    const std::size_t freed = std::max(top, next);
+    join(clusters, std::min(top, next), freed);
     for (std::uint32_t& slot : chain)
       if (slot == last) slot = static_cast<std::uint32_t>(freed);
   }
@@ -115,3 +354,4 @@ template bool average_linkage<std::uint64_t>(std::uint64_t*, int, LinkageWorkspa
                                              bool (*)(const void*), const void*);
 
 }  // namespace keenline::kernels
+#endif

@@ -20,16 +20,26 @@ struct LinkageWorkspace {
     std::uint32_t name;  // smallest item of the cluster
     std::uint32_t size;
   };
+  struct Cluster {
+    std::uint32_t size;          // 0 once it has been merged into another
+    std::uint32_t birth, seen;   // number of the merge that made it, and of the last that its row knows of
+    std::uint32_t older, newer;  // clusters made of others, in order of their births
+    std::uint32_t nearest, nearest_size;  // as found; out of date when that has another size
+  };
   std::vector<Slot> slots;
   std::vector<std::uint32_t> chain;
+  // Of the vector targets, by name of the cluster.
+  std::vector<Cluster> clusters;
+  std::vector<float> weights;
 };
 
 /// Average-linkage clustering of `count` items, exact in whole numbers.
 /// Always merges the closest pair of clusters; equal distances in the order of (smaller name, larger name).
-/// The pairs are found by nearest-neighbour chain, in O(count^2), so that merges come in another order than
-/// by height: but a cluster comes after what it consists of, and no cluster is lower than its parts. \param
-/// sums  in: distances between items, sums[i * count + j], symmetric, each <= 65520; destroyed.
-///              Sum = std::uint32_t holds up to 512 items, std::uint64_t any number.
+/// The pairs are found by nearest-neighbour chain that begins at the cluster of item 0, in O(count^2), so
+/// that merges come in another order than by height: but a cluster comes after what it consists of, and no
+/// cluster is lower than its parts.
+/// \param sums  in: distances between items, sums[i * row_length(count) + j], symmetric, each <= 65520;
+///              destroyed. Sum = std::uint32_t holds up to 512 items, std::uint64_t any number.
 /// \param merges out: count - 1 entries
 /// \param stop  asked now and then; when it answers true the function returns false and merges are incomplete
 template <typename Sum>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace keenline::kernels {
@@ -9,6 +11,14 @@ namespace keenline::kernels {
 /// numbers are exact: what follows from them depends neither on the order of summation nor on the CPU.
 inline constexpr double angle_units_per_degree = 728.0;
 inline constexpr std::uint32_t right_angle = 65520;
+
+/// acos(c) = sqrt(1 - c) P(c) for 0 <= c <= 1, |error| <= 2e-8 rad: Abramowitz & Stegun 4.4.46, highest power
+/// first. Not the C library's acos, whose last bit depends on the CPU it runs on. Every target evaluates it
+/// by the same multiplications and additions, none of them fused.
+inline constexpr std::array<float, 8> arc_cosine_polynomial{-0.0012624911F, 0.0066700901F,  -0.0170881256F,
+                                                            0.0308918810F,  -0.0501743046F, 0.0889789874F,
+                                                            -0.2145988016F, 1.5707963050F};
+inline constexpr float angle_units_per_radian = 41711.327F;  // 65520 / (pi / 2)
 
 /// Unit vectors, one array per coordinate. A line and its reverse are the same.
 struct Lines {
@@ -22,12 +32,26 @@ struct Lines {
 /// degrees on.
 [[nodiscard]] std::uint32_t line_angle(float cosine);
 
-/// All pairs: angles[i * count + j], symmetric, 0 on the diagonal. Sum is std::uint32_t or std::uint64_t.
+/// Matrices of angles have rows of whole vectors: `count` rounded up to an odd multiple of 16. Odd, because
+/// the entries of a column would otherwise crowd in a few sets of the cache.
+[[nodiscard]] constexpr std::size_t row_length(int count) {
+  return ((static_cast<std::size_t>(count) + 15) / 16 | 1U) * 16;
+}
+
+/// All pairs: angles[i * row_length(count) + j], symmetric, 0 on the diagonal; what follows j = count - 1 in
+/// a row is undefined. Sum is std::uint32_t or std::uint64_t. \pre count rows
 template <typename Sum>
 void line_angles(const Lines& lines, Sum* angles);
 
 /// Mean angle of all lines to the line along (x, y, z), a unit vector, in units. \pre lines.count > 0
 [[nodiscard]] double mean_angle_to(const Lines& lines, float x, float y, float z);
+
+/// The smallest |cosine| between a line and the line along (x, y, z), a unit vector: that of the largest
+/// angle. 1 without lines.
+[[nodiscard]] float smallest_cosine_to(const Lines& lines, float x, float y, float z);
+
+/// Whether all lines are within `units` of the line along (x, y, z), a unit vector.
+[[nodiscard]] bool all_within(const Lines& lines, float x, float y, float z, double units);
 
 /// True only if all lines lie so close to the first that no two of them are further apart than `units`.
 [[nodiscard]] bool all_within(const Lines& lines, double units);
