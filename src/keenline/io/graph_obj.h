@@ -1,0 +1,14 @@
+#pragma once
+
+namespace keenline {
+
+class Progress;
+class Sink;
+struct FeatureGraph;
+
+/// Wavefront OBJ: v, l and p elements in the groups creases, borders and corners; `l` of a closed line ends
+/// with its first vertex. \throw OutputError from the sink; Cancelled.
+/// \pre the graph is valid
+void write_graph_obj(const FeatureGraph& graph, Sink& sink, Progress& progress);
+
+}  // namespace keenline
