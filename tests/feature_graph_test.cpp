@@ -36,6 +36,16 @@ TEST(FeatureGraph, LengthCountsTheClosingPieceOfAClosedLineOnly) {
   EXPECT_EQ(length_of({}), 0);
 }
 
+TEST(FeatureGraph, ExtentCoversVerticesAndCorners) {
+  EXPECT_TRUE(extent_of({}).is_empty());
+  FeatureGraph graph = small_graph();
+  graph.corners[1].position = {-1, 2, 9};
+  const Extent extent = extent_of(graph);
+  EXPECT_FALSE(extent.is_empty());
+  EXPECT_EQ(extent.low, (Point{-1, 0, 0}));
+  EXPECT_EQ(extent.high, (Point{3, 4, 9}));
+}
+
 TEST(FeatureGraph, AcceptsWhatItDescribes) {
   EXPECT_NO_THROW(validate({}));
   FeatureGraph graph = small_graph();

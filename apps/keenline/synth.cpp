@@ -131,9 +131,8 @@ void add_synth(CLI::App& app, Action& action) {
       ->required()
       ->type_name("OUT");
   command
-      ->add_option(
-          "--lines", arguments->lines,
-          "Write the true lines too: .dxf, .gpkg, .geojson, .json, .obj or .ply; repeat it for several")
+      ->add_option("--lines", arguments->lines,
+                   fmt::format("Write the true lines too: {}; repeat it for several", graph_extensions()))
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->add_option("--points", arguments->options.points, "Points wanted")

@@ -85,6 +85,21 @@ std::string fault_of(const Polyline& line, std::size_t corners) {
 
 std::string_view name_of(LineKind kind) { return kind == LineKind::Crease ? "crease" : "border"; }
 
+void Extent::include(const Point& p) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis] = std::min(low[axis], p[axis]);
+    high[axis] = std::max(high[axis], p[axis]);
+  }
+}
+
+Extent extent_of(const FeatureGraph& graph) {
+  Extent extent;
+  for (const GraphCorner& corner : graph.corners) extent.include(corner.position);
+  for (const Polyline& line : graph.polylines)
+    for (const Point& p : line.vertices) extent.include(p);
+  return extent;
+}
+
 std::size_t segment_count(const Polyline& line) {
   return line.vertices.empty() ? 0 : line.vertices.size() - (line.closed ? 0 : 1);
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,7 +50,8 @@ struct FittedSpline {
 
 using FittedCurve = std::variant<std::monostate, FittedLine, FittedArc, FittedSpline>;
 
-/// The two unit normals of the surfaces that meet at a vertex, pointing out of the body.
+/// The unit normals of the two surfaces that meet at a vertex; they point out of the body where that is
+/// known.
 struct SideNormals {
   Point left{};  ///< seen from outside, looking along the line
   Point right{};
@@ -78,6 +80,19 @@ struct FeatureGraph {
   std::vector<Polyline> polylines;
   std::string crs;  ///< coordinate reference system: WKT or "EPSG:…"; empty when unknown
 };
+
+/// An axis-parallel box; empty until it includes a point.
+struct Extent {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+            std::numeric_limits<double>::infinity()};
+  Point high{-low[0], -low[1], -low[2]};
+
+  void include(const Point& p);
+  [[nodiscard]] bool is_empty() const { return low[0] > high[0]; }
+};
+
+/// Of all vertices and corners.
+[[nodiscard]] Extent extent_of(const FeatureGraph& graph);
 
 /// Along the straight pieces between the vertices; of a closed line back to the first.
 [[nodiscard]] double length_of(const Polyline& line);

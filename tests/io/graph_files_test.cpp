@@ -26,7 +26,7 @@ TEST(GraphFiles, ExtensionChoosesTheFormat) {
   EXPECT_EQ(find_graph_format("a.json").extension, ".json");
   for (const char* const path : {"a", ".dxf", "a.dwg", "dxf", "a.dxf.gz"}) {
     test::expect_error<InvalidArgument>([&] { (void)find_graph_format(path); }, path,
-                                        ".dxf, .gpkg, .geojson, .json, .obj, .ply");
+                                        ".dxf, .gpkg, .geojson, .json, .obj or .ply");
   }
 }
 

@@ -37,21 +37,9 @@ GraphCounts counts_of(const FeatureGraph& graph) {
   return counts;
 }
 
-/// Of the bounding box.
 double diagonal_of(const FeatureGraph& graph) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Point low{infinity, infinity, infinity};
-  Point high{-infinity, -infinity, -infinity};
-  const auto include = [&](const Point& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  };
-  for (const Polyline& line : graph.polylines)
-    std::for_each(line.vertices.begin(), line.vertices.end(), include);
-  for (const GraphCorner& corner : graph.corners) include(corner.position);
-  return low[0] > high[0] ? 0 : distance(low, high);
+  const Extent extent = extent_of(graph);
+  return extent.is_empty() ? 0 : distance(extent.low, extent.high);
 }
 
 /// Points of all lines. The first lie in the middle of equal steps and stand for a piece of the

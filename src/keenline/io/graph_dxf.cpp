@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -61,28 +60,6 @@ struct ObjectAxes {
   }
   [[nodiscard]] Point coordinates(const Point& p) const { return {dot(p, x), dot(p, y), dot(p, z)}; }
 };
-
-struct Extent {
-  // What DXF says where there is nothing.
-  Point low{1e20, 1e20, 1e20};
-  Point high{-1e20, -1e20, -1e20};
-};
-
-Extent extent_of(const FeatureGraph& graph) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (graph.corners.empty() && graph.polylines.empty()) return {};
-  Extent extent{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  const auto include = [&](const Point& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent.low[axis] = std::min(extent.low[axis], p[axis]);
-      extent.high[axis] = std::max(extent.high[axis], p[axis]);
-    }
-  };
-  for (const GraphCorner& corner : graph.corners) include(corner.position);
-  for (const Polyline& line : graph.polylines)
-    for (const Point& p : line.vertices) include(p);
-  return extent;
-}
 
 bool is_fitted(const Polyline& line) { return !std::holds_alternative<std::monostate>(line.fitted); }
 
@@ -143,9 +120,10 @@ class DxfWriter {
     code(9, "$HANDSEED");
     handle(5, next);
     code(9, "$EXTMIN");
-    point(10, extent_.low);
+    // Without anything in it, a drawing reaches from 1e20 to -1e20.
+    point(10, extent_.is_empty() ? Point{1e20, 1e20, 1e20} : extent_.low);
     code(9, "$EXTMAX");
-    point(10, extent_.high);
+    point(10, extent_.is_empty() ? Point{-1e20, -1e20, -1e20} : extent_.high);
     code(9, "$INSUNITS");
     code(70, 0);
     end_section();
@@ -205,9 +183,8 @@ class DxfWriter {
 
   /// So that the drawing fills the window when it is opened, far from the origin too.
   void write_view_table() {
-    const bool is_empty = extent_.low[0] > extent_.high[0];
     const auto middle = [&](std::size_t axis) {
-      return is_empty ? 0 : 0.5 * extent_.low[axis] + 0.5 * extent_.high[axis];
+      return extent_.is_empty() ? 0 : 0.5 * extent_.low[axis] + 0.5 * extent_.high[axis];
     };
     const double height = std::max(extent_.high[0] - extent_.low[0], extent_.high[1] - extent_.low[1]);
     const std::uint64_t table = begin_table("VPORT", 1);

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <list>
-#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "keenline/errors.h"
 #include "keenline/io/graph_dxf.h"
@@ -23,17 +22,21 @@ namespace keenline {
 namespace {
 
 constexpr std::array table{
-    GraphFormat{".dxf", "DXF R2000: 3D polylines, circles, arcs and splines in layers", write_graph_dxf},
-    GraphFormat{".gpkg", "GeoPackage: LINESTRING Z and POINT Z with attributes", write_graph_gpkg},
-    GraphFormat{".geojson", "GeoJSON: LineString and Point with properties", write_graph_geojson},
-    GraphFormat{".json", "the whole graph; can be read back", write_graph_json},
-    GraphFormat{".obj", "Wavefront OBJ: line elements", write_graph_obj},
-    GraphFormat{".ply", "PLY with edges, binary", write_graph_ply},
+    GraphFormat{".dxf", write_graph_dxf},         GraphFormat{".gpkg", write_graph_gpkg},
+    GraphFormat{".geojson", write_graph_geojson}, GraphFormat{".json", write_graph_json},
+    GraphFormat{".obj", write_graph_obj},         GraphFormat{".ply", write_graph_ply},
 };
 
 }  // namespace
 
 std::span<const GraphFormat> graph_formats() { return table; }
+
+std::string graph_extensions() {
+  std::string text(table[0].extension);
+  for (std::size_t i = 1; i < table.size(); ++i)
+    text += fmt::format("{}{}", i + 1 < table.size() ? ", " : " or ", table[i].extension);
+  return text;
+}
 
 const GraphFormat& find_graph_format(std::string_view path) {
   const auto found = std::find_if(table.begin(), table.end(), [&](const GraphFormat& format) {
@@ -41,10 +44,8 @@ const GraphFormat& find_graph_format(std::string_view path) {
            starts_with_ignoring_case(path.substr(path.size() - format.extension.size()), format.extension);
   });
   if (found != table.end()) return *found;
-  std::vector<std::string_view> known;
-  for (const GraphFormat& format : table) known.push_back(format.extension);
   throw InvalidArgument(
-      fmt::format("output {}: expected a name that ends in {}", quoted(path, 4096), fmt::join(known, ", ")));
+      fmt::format("output {}: expected a name that ends in {}", quoted(path, 4096), graph_extensions()));
 }
 
 void write_graph(std::span<const std::string> paths, const FeatureGraph& graph, Progress& progress,

@@ -15,11 +15,13 @@ class Sink;
 /// One row of the table of formats that hold a drawing.
 struct GraphFormat {
   std::string_view extension;  ///< ".dxf"
-  std::string_view summary;
   void (*write)(const FeatureGraph& graph, Sink& sink, Progress& progress);
 };
 
 [[nodiscard]] std::span<const GraphFormat> graph_formats();
+
+/// ".dxf, .gpkg, … or .ply"
+[[nodiscard]] std::string graph_extensions();
 
 /// By the extension of `path`, in any case. \throw InvalidArgument naming all there are when it is no such
 /// format.

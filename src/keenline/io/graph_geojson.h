@@ -8,8 +8,9 @@ struct FeatureGraph;
 
 /// GeoJSON: corners as Point, lines as LineString, closed ones ending with their first position; attributes
 /// as properties, numbered from 0. The coordinates are those of the cloud, whatever RFC 7946 expects; the
-/// member "keenline" says so and gives the CRS. \throw OutputError from the sink; Cancelled. \pre the graph
-/// is valid
+/// member "keenline" says so and gives the CRS.
+/// \pre the graph is valid
+/// \throw OutputError from the sink; Cancelled.
 void write_graph_geojson(const FeatureGraph& graph, Sink& sink, Progress& progress);
 
 }  // namespace keenline

@@ -133,20 +133,6 @@ class Insertion {
   int place_ = 0;
 };
 
-/// Smallest and largest x, y, z; nothing yet when the smallest is the larger.
-struct Extent {
-  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-            std::numeric_limits<double>::infinity()};
-  Point high{-low[0], -low[1], -low[2]};
-
-  void include(const Point& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-};
-
 template <typename T>
 void append(std::string& bytes, T value) {
   bytes.resize(bytes.size() + sizeof value);
@@ -270,8 +256,7 @@ class GpkgWriter {
   }
 
   void describe(std::string_view table, std::string_view geometry, const Extent& extent) {
-    const bool is_empty = extent.low[0] > extent.high[0];
-    const auto bound = [&](double value) { return is_empty ? std::nullopt : std::optional(value); };
+    const auto bound = [&](double value) { return extent.is_empty() ? std::nullopt : std::optional(value); };
     Insertion(database_,
               "INSERT INTO gpkg_contents VALUES (?,'features',?,'','1970-01-01T00:00:00.000Z',?,?,?,?,?)")
         .add(table)

@@ -31,7 +31,7 @@ struct UnfinishedPath {
   std::atomic<int> state{Free};
   std::array<char, PATH_MAX> path{};
 };
-std::array<UnfinishedPath, 8> unfinished_paths;
+std::array<UnfinishedPath, 16> unfinished_paths;
 
 void remember_unfinished(const std::string& path) {
   if (path.size() >= PATH_MAX) return;  // the kernel refuses such a path anyway
