@@ -52,22 +52,23 @@ struct LineSamples {
 void add_even_samples(const Polyline& line, double step, LineSamples& samples) {
   const double length = length_of(line);
   if (!(length > 0)) return;
-  const double count = std::max(1.0, std::ceil(length / step));
-  double walked = 0;  // up to the start of the segment at hand
-  double next = 0;    // number of the next sample
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / step)));
+  const double part = length / static_cast<double>(count);
+  double walked = 0;     // up to the start of the segment at hand
+  std::size_t next = 0;  // number of the next sample
   for (std::size_t i = 0; i < segment_count(line); ++i) {
     const Point& a = line.vertices[i];
     const Point& b = segment_end(line, i);
     const double piece = distance(a, b);
     const bool is_last = i + 1 == segment_count(line);
     for (; next < count; ++next) {
-      const double along = (next + 0.5) * (length / count) - walked;
+      const double along = (static_cast<double>(next) + 0.5) * part - walked;
       if (along > piece && !is_last) break;
       const double t = piece > 0 ? std::clamp(along / piece, 0.0, 1.0) : 0;
       Point p{};
       for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = a[axis] + t * (b[axis] - a[axis]);
       samples.points.push_back(p);
-      samples.weights.push_back(length / count);
+      samples.weights.push_back(part);
     }
     walked += piece;
   }
