@@ -4,13 +4,13 @@
 set -euo pipefail
 
 level=${1:?usage: scripts/setup.sh build|test|check}
-packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev libhwy-dev)
+packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev libsqlite3-dev libhwy-dev)
 tools=(c++ cmake ninja)
-headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h hwy/highway.h)
+headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h sqlite3.h hwy/highway.h)
 case $level in
   build) ;;
   test|check)
-    packages+=(libgtest-dev python3)
+    packages+=(libgtest-dev python3 python3-ezdxf)
     tools+=(python3)
     headers+=(gtest/gtest.h) ;;&
   check)

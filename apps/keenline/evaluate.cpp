@@ -15,6 +15,7 @@
 #include "keenline/io/read.h"
 
 #include "commands.h"
+#include "evaluate_lines.h"
 #include "terminal.h"
 
 namespace keenline::cli {
@@ -23,6 +24,8 @@ namespace {
 struct EvaluateArguments {
   std::vector<std::string> predictions;
   std::string truth;
+  std::string true_lines;
+  double spacing = 0;  // used when the user gave it
   int threads = 0;
   bool json = false;
   bool quiet = false;
@@ -81,8 +84,14 @@ void print_evaluation(const EvaluateArguments& arguments, const std::vector<Conf
   print(text);
 }
 
-void evaluate(const EvaluateArguments& arguments) {
+void evaluate(const CLI::App& command, const EvaluateArguments& arguments) {
   limit_threads(arguments.threads);
+  if (!arguments.true_lines.empty()) {
+    GraphComparisonOptions options;
+    if (command.count("--spacing") > 0) options.spacing = arguments.spacing;
+    evaluate_lines(arguments.predictions, arguments.true_lines, options, arguments.json, arguments.quiet);
+    return;
+  }
   std::vector<Confusion> confusions;
   {
     TerminalProgress progress(arguments.quiet);
@@ -99,19 +108,30 @@ void evaluate(const EvaluateArguments& arguments) {
 }  // namespace
 
 void add_evaluate(CLI::App& app, Action& action) {
-  CLI::App* const command =
-      app.add_subcommand("evaluate", "Measure labels against the truth: precision, recall, F1, MCC, IoU");
+  CLI::App* const command = app.add_subcommand("evaluate", "Measure labels or lines against the truth");
   const auto arguments = std::make_shared<EvaluateArguments>();
   command
-      ->add_option("PREDICTION", arguments->predictions,
-                   "Labelled clouds: attribute feature, and truth or truth_feature")
+      ->add_option(
+          "PREDICTION", arguments->predictions,
+          "Labelled clouds: attribute feature, and truth or truth_feature; with --lines: lines (.json)")
       ->required();
-  command->add_option("--truth", arguments->truth, "Take truth (or truth_feature) from this file instead")
-      ->type_name("FILE");
+  CLI::Option* const truth =
+      command->add_option("--truth", arguments->truth, "Take truth (or truth_feature) from this file instead")
+          ->type_name("FILE");
+  CLI::Option* const lines = command
+                                 ->add_option("--lines", arguments->true_lines,
+                                              "Compare lines with the true ones in this file (.json)")
+                                 ->type_name("FILE")
+                                 ->excludes(truth);
+  command
+      ->add_option("--spacing", arguments->spacing, "Point spacing h of the cloud: give distances in it too")
+      ->type_name("H")
+      ->needs(lines);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the table");
   command->add_flag("--quiet", arguments->quiet, "No progress");
-  command->callback([&action, arguments] { action = [arguments] { evaluate(*arguments); }; });
+  command->callback(
+      [&action, command, arguments] { action = [command, arguments] { evaluate(*command, *arguments); }; });
 }
 
 }  // namespace keenline::cli

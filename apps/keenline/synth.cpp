@@ -4,14 +4,18 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "keenline/errors.h"
+#include "keenline/io/graph_files.h"
+#include "keenline/io/output_file.h"
 #include "keenline/io/text.h"
 #include "keenline/io/write.h"
+#include "keenline/synth/true_lines.h"
 
 #include "commands.h"
 #include "terminal.h"
@@ -22,6 +26,7 @@ namespace {
 struct SynthArguments {
   SynthOptions options;
   std::string output;
+  std::vector<std::string> lines;
   std::string sampling = "random";
   std::string noise = "0h";
   double angle_deg = 0;  // used when the user gave it
@@ -68,6 +73,7 @@ void print_result(const SynthArguments& arguments, const SynthCloud& result) {
   if (arguments.json) {
     print_json({{"shape", options.shape},
                 {"output", arguments.output},
+                {"lines", arguments.lines},
                 {"points", result.cloud.size()},
                 {"spacing", result.spacing},
                 {"sampling", arguments.sampling},
@@ -86,6 +92,10 @@ void print_result(const SynthArguments& arguments, const SynthCloud& result) {
 void synth(const CLI::App& command, SynthArguments& arguments) {
   limit_threads(arguments.threads);
   require_writable_extension(arguments.output);
+  std::vector<std::string> outputs = arguments.lines;
+  for (const std::string& path : outputs) (void)find_graph_format(path);
+  outputs.push_back(arguments.output);
+  require_distinct_outputs(outputs);
   SynthOptions& options = arguments.options;
   options.sampling = parse_sampling(arguments.sampling);
   options.noise = parse_noise(arguments.noise);
@@ -93,10 +103,13 @@ void synth(const CLI::App& command, SynthArguments& arguments) {
 
   TerminalProgress progress(arguments.quiet);
   const SynthCloud result = synthesize(options, progress);
+  // The cloud is renamed last: it appears when all is there.
   write_cloud(arguments.output, result.cloud, progress, [&](const std::vector<std::string>& notes) {
-    progress.clear();
-    if (!arguments.quiet) print_notes(arguments.output, notes);
-    print_result(arguments, result);
+    write_graph(arguments.lines, true_lines(result), progress, [&] {
+      progress.clear();
+      if (!arguments.quiet) print_notes(arguments.output, notes);
+      print_result(arguments, result);
+    });
   });
 }
 
@@ -117,6 +130,11 @@ void add_synth(CLI::App& app, Action& action) {
   command->add_option("-o,--output", arguments->output, "Result: .ply (binary) or .csv")
       ->required()
       ->type_name("OUT");
+  command
+      ->add_option("--lines", arguments->lines,
+                   fmt::format("Write the true lines too: {}; repeat it for several", graph_extensions()))
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command->add_option("--points", arguments->options.points, "Points wanted")
       ->capture_default_str()
       ->type_name("N");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -138,6 +139,15 @@ TEST(OutputFile, TheInputIsNeverTheOutput) {
   EXPECT_NO_THROW(require_different_files(folder.file("none"), folder.file("none")));
   for (const std::string& same : {input, folder.file("./cloud.ply"), folder.file("link.ply")})
     expect_error<InvalidArgument>([&] { require_different_files(input, same); }, "is the input");
+}
+
+TEST(OutputFile, NoOutputIsNamedTwice) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(folder.path(), folder.path() / "again");
+  const std::string path = folder.file("a.ply");
+  EXPECT_NO_THROW(require_distinct_outputs(std::vector{path, folder.file("b.ply")}));
+  for (const std::string& same : {path, folder.file("./a.ply"), folder.file("again/a.ply")})
+    expect_error<InvalidArgument>([&] { require_distinct_outputs(std::vector{path, same}); }, "named twice");
 }
 
 }  // namespace

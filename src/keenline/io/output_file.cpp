@@ -8,9 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -28,7 +31,7 @@ struct UnfinishedPath {
   std::atomic<int> state{Free};
   std::array<char, PATH_MAX> path{};
 };
-std::array<UnfinishedPath, 8> unfinished_paths;
+std::array<UnfinishedPath, 16> unfinished_paths;
 
 void remember_unfinished(const std::string& path) {
   if (path.size() >= PATH_MAX) return;  // the kernel refuses such a path anyway
@@ -204,6 +207,18 @@ void require_different_files(const std::string& input, const std::string& output
   if (::stat(input.c_str(), &in) != 0 || ::stat(output.c_str(), &out) != 0) return;
   if (in.st_dev == out.st_dev && in.st_ino == out.st_ino)
     throw InvalidArgument(fmt::format("output {} is the input; expected another file", quoted(output, 4096)));
+}
+
+void require_distinct_outputs(std::span<const std::string> paths) {
+  std::set<std::string> targets;
+  for (const std::string& path : paths) {
+    std::error_code ignored;  // a path that cannot be followed is refused where it is opened
+    const std::filesystem::path target =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+    if (!targets.insert(target.empty() ? path : target.string()).second)
+      throw InvalidArgument(
+          fmt::format("output {} is named twice; expected another file", quoted(path, 4096)));
+  }
 }
 
 void remove_unfinished_output() noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "keenline/io/sink.h"
@@ -41,6 +42,10 @@ class OutputFile : public Sink {
 /// The input is precious: a result never replaces it.
 /// \throw InvalidArgument when both names lead to the same file.
 void require_different_files(const std::string& input, const std::string& output);
+
+/// One result never replaces another.
+/// \throw InvalidArgument when two of the names lead to the same file, whether that exists or not.
+void require_distinct_outputs(std::span<const std::string> paths);
 
 /// Removes the temporary file of an OutputFile that is open just now. Safe to call from a signal handler;
 /// meant for a program that is about to end without unwinding.
