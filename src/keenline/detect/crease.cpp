@@ -14,7 +14,7 @@ namespace {
 
 constexpr double largest_sine_off_face = 0.64278760968653933;  // 40 degrees
 constexpr double smallest_squared_sine = 0.01;                 // of the angle between the planes: 6 degrees
-constexpr double smallest_flatness = 0.01;  // of variances: a row of points is in no plane of its own
+constexpr double smallest_flatness = 0.001;  // of variances: a row of points is in no plane of its own
 constexpr double birth_through_point = 4 * kernels::angle_units_per_degree;
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -78,44 +78,50 @@ double widest_sector_cosine(const GaussMap& map, const Face& face) {
   return cosine;
 }
 
-Point mean_direction(const kernels::Lines& lines, const FaceWorkspace& workspace, std::uint32_t first) {
+/// Where the lines gather that the face was born of. They come first in the list that their cluster begins.
+Point direction_of_birth(const kernels::Lines& lines, const FaceWorkspace& workspace,
+                         const FaceWorkspace::Birth& birth) {
   kernels::Symmetric3 tensor;
-  for (std::uint32_t i = first; i != none; i = workspace.clusters[i].next)
-    kernels::add_outer_product(tensor, static_cast<double>(lines.x[i]), static_cast<double>(lines.y[i]),
-                               static_cast<double>(lines.z[i]));
+  std::uint32_t line = birth.first;
+  for (std::uint32_t i = 0; i < birth.lines; ++i, line = workspace.clusters[line].next)
+    kernels::add_outer_product(tensor, static_cast<double>(lines.x[line]), static_cast<double>(lines.y[line]),
+                               static_cast<double>(lines.z[line]));
   return kernels::eigen_decomposition(tensor).vectors[0];
 }
 
-}  // namespace
+void look_for_ends(const GaussMap& map, Face& face) {
+  const double cosine = widest_sector_cosine(map, face);
+  face.ends = cosine < end_cosine;
+  face.is_half = cosine < half_cosine;
+}
 
-void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWorkspace& workspace,
-                std::vector<Face>& faces) {
-  const kernels::Lines lines = map.lines();
+/// Fills workspace.born; those that are not persistent die at 0.
+void follow_merges(const GaussMap& map, int min_cluster, double persistence, FaceWorkspace& workspace) {
   auto& clusters = workspace.clusters;
   auto& born = workspace.born;
+  const auto lines = static_cast<std::uint32_t>(map.lines().count);
   born.clear();
-  faces.clear();
-  clusters.resize(std::max(clusters.size(), static_cast<std::size_t>(lines.count)));
-  const auto bear = [&](std::uint32_t cluster, double height) {
+  clusters.resize(std::max(clusters.size(), static_cast<std::size_t>(lines)));
+  const auto bear = [&](std::uint32_t cluster, std::uint32_t size, double height) {
     clusters[cluster].oldest = static_cast<std::uint32_t>(born.size());
     clusters[cluster].faces.push_back(clusters[cluster].oldest);
-    born.push_back({mean_direction(lines, workspace, cluster), height});
+    born.push_back({cluster, size, height, std::numeric_limits<double>::infinity()});
   };
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(lines.count); ++i) {
+  for (std::uint32_t i = 0; i < lines; ++i) {
     clusters[i].next = none;
     clusters[i].last = i;
     clusters[i].oldest = none;
     clusters[i].faces.clear();
-    if (min_cluster <= 1) bear(i, 0);
+    if (min_cluster <= 1) bear(i, 1, 0);
   }
 
   for (const kernels::Merge& merge : map.merges()) {
     auto& first = clusters[merge.first];
     auto& second = clusters[merge.second];
     if (first.oldest != none && second.oldest != none) {
-      const bool first_is_older = born[first.oldest].birth <= born[second.oldest].birth;
+      const bool first_is_older = born[first.oldest].height <= born[second.oldest].height;
       const auto& younger = first_is_older ? second : first;
-      const double younger_birth = std::max(born[younger.oldest].birth, smallest_birth);
+      const double younger_birth = std::max(born[younger.oldest].height, smallest_birth);
       const bool persistent = merge.height >= persistence * younger_birth;
       for (const std::uint32_t f : younger.faces)
         born[f].death = persistent ? std::min(born[f].death, merge.height) : 0;
@@ -130,20 +136,36 @@ void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWo
     }
     clusters[first.last].next = merge.second;
     first.last = second.last;
-    if (first.oldest == none &&
-        merge.first_size + merge.second_size >= static_cast<std::uint32_t>(min_cluster))
-      bear(merge.first, merge.height);
+    const std::uint32_t size = merge.first_size + merge.second_size;
+    if (first.oldest == none && size >= static_cast<std::uint32_t>(min_cluster))
+      bear(merge.first, size, merge.height);
   }
+}
 
-  for (const Face& face : born)
-    if (face.death > 0) faces.push_back(face);
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const Face& a, const Face& b) { return a.death > b.death; });
-  for (Face& face : faces) {
-    const double cosine = widest_sector_cosine(map, face);
-    face.ends = cosine < end_cosine;
-    face.is_half = cosine < half_cosine;
+}  // namespace
+
+void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWorkspace& workspace,
+                std::vector<Face>& faces) {
+  follow_merges(map, min_cluster, persistence, workspace);
+  auto& born = workspace.born;
+  born.erase(std::remove_if(born.begin(), born.end(), [](const auto& birth) { return birth.death == 0; }),
+             born.end());
+  std::stable_sort(born.begin(), born.end(), [](const auto& a, const auto& b) { return a.death > b.death; });
+  faces.clear();
+  for (const FaceWorkspace::Birth& birth : born) {
+    const Point normal =
+        born.size() == 1 ? map.common_direction() : direction_of_birth(map.lines(), workspace, birth);
+    faces.push_back({normal, birth.height, birth.death});
+    look_for_ends(map, faces.back());
   }
+}
+
+double unresolved_angle(double persistence) { return persistence * smallest_birth; }
+
+Face lone_face(const GaussMap& map) {
+  Face face{map.common_direction(), 0};
+  look_for_ends(map, face);
+  return face;
 }
 
 }  // namespace keenline

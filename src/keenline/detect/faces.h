@@ -12,7 +12,7 @@ class GaussMap;
 
 /// One significant direction of a Gauss map: a face of the surface that the point takes part in.
 struct Face {
-  /// Unit vector, up to its sign.
+  /// Unit vector, up to its sign: where the lines gather that it was born of; of a lone face, all lines.
   Point normal;
   /// Height of the merge, in units of 1/728 degree, at which the lines of the face first were significant:
   /// how much the face scatters by itself.
@@ -30,11 +30,16 @@ struct FaceWorkspace {
   struct Cluster {
     std::uint32_t next;    // the next line of the same cluster
     std::uint32_t last;    // the last line of the cluster that begins here
-    std::uint32_t oldest;  // index of its oldest face
+    std::uint32_t oldest;  // index of its oldest face in born
     std::vector<std::uint32_t> faces;
   };
+  struct Birth {
+    std::uint32_t first, lines;  // the lines that it was born of: so many from the first one on
+    double height;
+    double death;
+  };
   std::vector<Cluster> clusters;
-  std::vector<Face> born;
+  std::vector<Birth> born;
 };
 
 /// The faces at the point whose Gauss map has been clustered, oldest first.
@@ -48,5 +53,13 @@ struct FaceWorkspace {
 /// least one does not: that is what makes edges one point thin.
 void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWorkspace& workspace,
                 std::vector<Face>& faces);
+
+/// Below this all lines are one direction, in units of 1/728 degree: no face dies at less than persistence
+/// times one degree.
+[[nodiscard]] double unresolved_angle(double persistence);
+
+/// What find_faces() returns, but for the birth, where all lines are nearer to each other than that and than
+/// 7 degrees: one face. Needs no clustering. \pre at least min_cluster lines
+[[nodiscard]] Face lone_face(const GaussMap& map);
 
 }  // namespace keenline

@@ -31,8 +31,9 @@ namespace {
 
 using kernels::angle_units_per_degree;
 
-/// Differences of direction below this are of no interest: smallest score, and a shortcut for flat points.
-constexpr double smallest_angle = 90.0 / 64 * angle_units_per_degree;
+/// Differences of direction below this are of no interest: scores are 0, and such points flat at any
+/// sensitivity.
+constexpr double smallest_angle = 3 * angle_units_per_degree;
 
 void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                     const GaussOptions& options) {
@@ -99,6 +100,12 @@ class PointLabeler {
       steps_.push_back({0, Kind::Flat, 0});
       return;
     }
+    if (!options_.plain && lines >= min_cluster_ &&
+        kernels::all_within(map_.lines(), std::min(smallest_angle, unresolved_angle(persistence_)) - 2)) {
+      const Face face = lone_face(map_);
+      steps_.push_back({0, face.is_half ? Kind::Border : Kind::Flat, 1});
+      return;
+    }
     map_.cluster();
     score_ = sharpness_deg();
     if (options_.plain) count_clusters();
@@ -122,7 +129,8 @@ class PointLabeler {
     for (const kernels::Merge& merge : map_.merges())
       if (is_significant(std::min(merge.first_size, merge.second_size)))
         sharpness_ = std::max(sharpness_, merge.height);
-    return sharpness_ > smallest_angle ? static_cast<float>(sharpness_ / angle_units_per_degree) : 0.0F;
+    if (sharpness_ <= smallest_angle) sharpness_ = 0;
+    return static_cast<float>(sharpness_ / angle_units_per_degree);
   }
 
   /// Section 4 of the paper: the number of significant clusters when merging stops at the sensitivity.
@@ -155,7 +163,7 @@ class PointLabeler {
   /// The refined decision: which faces are there at the sensitivity, and do they all end here?
   void read_faces() {
     find_faces(map_, min_cluster_, persistence_, workspace_, faces_);
-    is_peak_ = sharpness_ > smallest_angle && is_peak(map_);
+    is_peak_ = sharpness_ > 0 && is_peak(map_);
     is_beside_ = options_.thin && faces_.size() > 1 && is_beside_crease(map_, faces_);
     // Everything that the decision depends on changes at the deaths of faces and at the height where all
     // significant lines have become one direction.

@@ -58,7 +58,7 @@ struct GaussOptions {
 /// that ends is a border, one that does not is flat when all significant lines are one direction at sigma,
 /// and curved otherwise.
 ///
-/// The score is the largest angle, in degrees, at which two significant clusters become one (0 below 90/64
+/// The score is the largest angle, in degrees, at which two significant clusters become one (0 below 3
 /// degrees). Paper: Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", section 4.
 /// Departures: see docs/methods/gauss.md. Threads: any number, same bits. Cost: O(n k^4). Memory: k^4 bytes
 /// per thread up to k = 32, 2 k^4 above; about 20 bytes a point. \pre neighborhoods.size() == cloud.size()
