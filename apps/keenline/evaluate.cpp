@@ -27,16 +27,19 @@ struct EvaluateArguments {
   std::string true_lines;
   double spacing = 0;  // used when the user gave it
   int threads = 0;
+  bool kinds = false;
   bool json = false;
   bool quiet = false;
 };
 
-/// \throw InputError naming the prediction when it cannot be compared: the fault is in the files, not in the
-/// call.
-Confusion compare_file(const std::string& path, const std::optional<PointCloud>& truth, Progress& progress) {
+/// `comparison` is compare() or compare_kinds(). \throw InputError naming the prediction when it cannot be
+/// compared: the fault is in the files, not in the call.
+template <typename Comparison>
+auto compare_file(const Comparison& comparison, const std::string& path,
+                  const std::optional<PointCloud>& truth, Progress& progress) {
   const PointCloud prediction = read_cloud(path, progress).cloud;
   try {
-    return compare(prediction, truth ? *truth : prediction);
+    return comparison(prediction, truth ? *truth : prediction);
   } catch (const InvalidArgument& e) {
     throw InputError(path, e.what());
   }
@@ -84,6 +87,39 @@ void print_evaluation(const EvaluateArguments& arguments, const std::vector<Conf
   print(text);
 }
 
+void print_json_kinds(const EvaluateArguments& arguments, const KindConfusion& confusion) {
+  nlohmann::json matrix = nlohmann::json::object();
+  for (std::size_t t = 0; t < all_kinds.size(); ++t)
+    for (std::size_t f = 0; f < all_kinds.size(); ++f)
+      matrix[std::string(name_of(all_kinds[t]))][std::string(name_of(all_kinds[f]))] = confusion.counts[t][f];
+  print_json({{"files", arguments.predictions}, {"kinds", std::move(matrix)}});
+}
+
+void print_kinds(const KindConfusion& confusion) {
+  std::string text = fmt::format("{:<16}", "truth \\ found");
+  for (const Kind kind : all_kinds) text += fmt::format(" {:>9}", name_of(kind));
+  text += '\n';
+  for (std::size_t t = 0; t < all_kinds.size(); ++t) {
+    text += fmt::format("{:<16}", name_of(all_kinds[t]));
+    for (const std::uint64_t count : confusion.counts[t]) text += fmt::format(" {:>9}", count);
+    text += '\n';
+  }
+  print(text);
+}
+
+void evaluate_kinds(const EvaluateArguments& arguments) {
+  KindConfusion confusion;
+  {
+    TerminalProgress progress(arguments.quiet);
+    std::optional<PointCloud> truth;
+    if (!arguments.truth.empty()) truth = read_cloud(arguments.truth, progress).cloud;
+    for (const std::string& path : arguments.predictions)
+      confusion += compare_file(compare_kinds, path, truth, progress);
+  }
+  if (arguments.json) print_json_kinds(arguments, confusion);
+  else print_kinds(confusion);
+}
+
 void evaluate(const CLI::App& command, const EvaluateArguments& arguments) {
   limit_threads(arguments.threads);
   if (!arguments.true_lines.empty()) {
@@ -92,13 +128,17 @@ void evaluate(const CLI::App& command, const EvaluateArguments& arguments) {
     evaluate_lines(arguments.predictions, arguments.true_lines, options, arguments.json, arguments.quiet);
     return;
   }
+  if (arguments.kinds) {
+    evaluate_kinds(arguments);
+    return;
+  }
   std::vector<Confusion> confusions;
   {
     TerminalProgress progress(arguments.quiet);
     std::optional<PointCloud> truth;
     if (!arguments.truth.empty()) truth = read_cloud(arguments.truth, progress).cloud;
     for (const std::string& path : arguments.predictions)
-      confusions.push_back(compare_file(path, truth, progress));
+      confusions.push_back(compare_file(compare, path, truth, progress));
   }
   const Summary summary = summarize(confusions);
   if (arguments.json) print_json_evaluation(arguments, confusions, summary);
@@ -127,6 +167,10 @@ void add_evaluate(CLI::App& app, Action& action) {
       ->add_option("--spacing", arguments->spacing, "Point spacing h of the cloud: give distances in it too")
       ->type_name("H")
       ->needs(lines);
+  command
+      ->add_flag("--kinds", arguments->kinds,
+                 "Count the points of each kind: attribute kind against truth_kind, of all files together")
+      ->excludes(lines);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the table");
   command->add_flag("--quiet", arguments->quiet, "No progress");

@@ -35,8 +35,8 @@ void gaussmap(const CLI::App& command, const GaussmapArguments& arguments) {
   require_png_extension(arguments.sheet.output);
   require_different_files(arguments.input, arguments.sheet.output);
   const Method& method = find_method("gauss");
-  GaussOptions options =
-      gauss_options_from(resolve_options(method, parsed_options(command, method, arguments.method)));
+  const OptionValues values = resolve_options(method, parsed_options(command, method, arguments.method));
+  GaussOptions options = gauss_options_from(values);
   GaussSphereOptions sphere;
   sphere.camera = parsed_view(arguments.sheet, sphere.camera);
   const Size size = parsed_size(arguments.sheet, {sphere.width, sphere.height});
@@ -52,7 +52,7 @@ void gaussmap(const CLI::App& command, const GaussmapArguments& arguments) {
                                       cloud.size() == 0 ? "but the cloud has no points"
                                                         : fmt::format("expected 0 to {}", cloud.size() - 1)));
   }
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, options.neighbors, progress);
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, method.reach(values), progress);
   if (options.sigma_rule == SigmaRule::Auto && !arguments.points.empty()) {
     // Once, not for every point.
     options.sigma_deg = detect_gauss(cloud, neighborhoods, options, progress).sigma_deg;

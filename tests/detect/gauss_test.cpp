@@ -516,5 +516,51 @@ TEST(GaussMap, TooFewNeighborsAndWrongPoints) {
   test::expect_error<InvalidArgument>([&] { (void)gauss_map(cloud, {}, 0); }, "0 neighborhoods");
 }
 
+TEST(GaussScales, AreLargerAndSmallerByTurns) {
+  EXPECT_EQ(neighborhood_sizes(16, 1), (std::vector<int>{16}));
+  EXPECT_EQ(neighborhood_sizes(16, 5), (std::vector<int>{16, 23, 11, 32, 8}));
+  EXPECT_EQ(neighborhood_sizes(4, 5), (std::vector<int>{4, 6, 3, 8, 3}));
+  EXPECT_EQ(neighborhood_sizes(250, 2), (std::vector<int>{250, 255}));
+}
+
+TEST(GaussScales, TheMajorityDecidesAtEverySensitivity) {
+  const PointCloud cloud = shape("fandisk", 1500, 0.03).cloud;
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 23);
+  GaussOptions options;
+  options.min_support = 0;
+  for (const double sigma_deg : {8.0, 15.0, 30.0}) {
+    options.sigma_rule = SigmaRule::Given;
+    options.sigma_deg = sigma_deg;
+    std::vector<FeatureLabels> single;
+    for (const int size : neighborhood_sizes(16, 3)) {
+      options.scales = 1;
+      options.neighbors = size;
+      single.push_back(detect_gauss(cloud, neighborhoods, options));
+    }
+    options.neighbors = 16;
+    options.scales = 3;
+    const FeatureLabels combined = detect_gauss(cloud, neighborhoods, options);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const auto sharp = std::count_if(single.begin(), single.end(), [&](const FeatureLabels& labels) {
+        return is_feature(labels.kind[i]);
+      });
+      ASSERT_EQ(is_feature(combined.kind[i]), sharp >= 2) << i;
+      if (is_feature(single[0].kind[i]) == (sharp >= 2)) {
+        ASSERT_EQ(combined.kind[i], single[0].kind[i]) << i;
+      }
+    }
+    EXPECT_EQ(combined.score, single[0].score);
+  }
+}
+
+TEST(GaussScales, ChangeNothingThatIsPlain) {
+  const PointCloud cloud = shape("cube", 1000, 0.05).cloud;
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 23);
+  GaussOptions options = plain();
+  const FeatureLabels once = detect_gauss(cloud, neighborhoods, options);
+  options.scales = 3;
+  EXPECT_EQ(detect_gauss(cloud, neighborhoods, options).kind, once.kind);
+}
+
 }  // namespace
 }  // namespace keenline

@@ -40,6 +40,17 @@ TEST(Isolated, PeaksStandAlone) {
             (std::vector<Kind>{Kind::Curved, Kind::Curved, Kind::Peak}));
 }
 
+TEST(Isolated, BordersNeedBorders) {
+  LabelSpectrum spectrum = spectrum_of_three();
+  spectrum.kind[5] = Kind::Border;
+  // Its neighbour is sharp, which does not count.
+  EXPECT_EQ(relabel(without_isolated(spectrum, three(), 1), 30).kind,
+            (std::vector<Kind>{Kind::Edge, Kind::Edge, Kind::Flat}));
+  spectrum.kind[4] = Kind::Border;
+  EXPECT_EQ(relabel(without_isolated(spectrum, three(), 1), 30).kind,
+            (std::vector<Kind>{Kind::Curved, Kind::Flat, Kind::Border}));
+}
+
 TEST(Isolated, MoreSupportKeepsLess) {
   const LabelSpectrum found = without_isolated(spectrum_of_three(), three(), 2);
   EXPECT_EQ(relabel(found, 30).kind, (std::vector<Kind>{Kind::Curved, Kind::Curved, Kind::Corner}));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,42 @@ TEST(Evaluate, TakesTheMedianOfEachScoreAlone) {
 
 TEST(Evaluate, RefusesToSummarizeNothing) {
   expect_error<InvalidArgument>([] { (void)summarize({}); }, "at least one cloud");
+}
+
+PointCloud with_kinds(const std::string& name, const std::vector<std::uint8_t>& kinds) {
+  return cloud_with(name, kinds);
+}
+
+TEST(Evaluate, CountsKindsAgainstKinds) {
+  const PointCloud found = with_kinds("kind", {0, 2, 2, 255, 5});
+  const PointCloud truth = with_kinds("truth_kind", {0, 2, 3, 1, 5});
+  const KindConfusion once = compare_kinds(found, truth);
+  EXPECT_EQ(once.counts[0][0], 1U);
+  EXPECT_EQ(once.counts[2][2], 1U);
+  EXPECT_EQ(once.counts[3][2], 1U);
+  EXPECT_EQ(once.counts[1][6], 1U);  // undecided comes last
+  EXPECT_EQ(once.counts[5][5], 1U);
+  KindConfusion twice = once;
+  twice += once;
+  EXPECT_EQ(twice.counts[3][2], 2U);
+  std::uint64_t sum = 0;
+  for (const auto& row : twice.counts) sum += std::accumulate(row.begin(), row.end(), std::uint64_t{0});
+  EXPECT_EQ(sum, 10U);
+}
+
+TEST(Evaluate, RefusesWhatAreNoKinds) {
+  const PointCloud truth = with_kinds("truth_kind", {0, 2});
+  expect_error<InvalidArgument>([&] { (void)compare_kinds(truth, truth); }, "'kind'");
+  expect_error<InvalidArgument>(
+      [&] {
+        (void)compare_kinds(with_kinds("kind", {0, 7}), truth);
+      },
+      "point 1 is 7");
+  expect_error<InvalidArgument>(
+      [&] {
+        (void)compare_kinds(with_kinds("kind", {0, 1, 2}), truth);
+      },
+      "3 points, the truth 2");
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
   };
   require(options.neighbors >= min_neighbors && options.neighbors <= max_neighbors, "neighbors",
           options.neighbors, "3 to 255");
+  require(options.scales >= 1 && options.scales <= 5, "scales", options.scales, "1 to 5");
   if (options.sigma_rule == SigmaRule::Given) (void)sensitivity_of(options.sigma_deg);
   if (options.min_cluster)
     require(*options.min_cluster >= 1, "min-cluster", *options.min_cluster, "1 or more");
@@ -79,21 +80,44 @@ class PointLabeler {
         neighborhoods_(neighborhoods),
         options_(options),
         max_clusters_(options.max_clusters.value_or(options.plain ? 4 : 6)),
+        sizes_(neighborhood_sizes(options.neighbors, options.plain ? 1 : options.scales)),
         persistence_(options.persistence.value_or(options.thin ? 3 : 2)),
         map_(options.min_sine, progress) {}
 
   /// Afterwards the others are those of the point.
   void label(std::size_t point) {
+    // The first size last: score and map are its.
+    views_.resize(sizes_.size());
+    for (std::size_t s = sizes_.size(); s-- > 0;) {
+      look(point, sizes_[s]);
+      if (sizes_.size() > 1) views_[s] = steps_;
+    }
+    if (sizes_.size() > 1) combine_views();
+  }
+
+  [[nodiscard]] std::span<const Step> steps() const { return steps_; }
+  /// The largest angle at which two significant clusters become one, in degrees.
+  [[nodiscard]] float score() const { return score_; }
+  /// Lines of a significant cluster.
+  [[nodiscard]] int min_cluster() const { return min_cluster_; }
+  /// Clustered, whether the label took it or not.
+  [[nodiscard]] const GaussMap& clustered_map() {
+    if (map_.merges().empty() && map_.lines().count > 1) map_.cluster();
+    return map_;
+  }
+
+ private:
+  /// Labels the point by that many neighbours.
+  void look(std::size_t point, int size) {
     steps_.clear();
     score_ = 0;
     map_.clear();
     const auto neighbors = neighborhoods_.of(point);
-    if (neighbors.size() < static_cast<std::size_t>(options_.neighbors)) {
+    if (neighbors.size() < static_cast<std::size_t>(size)) {
       steps_.push_back({0, Kind::Undecided, 0});
       return;
     }
-    map_.collect(cloud_.positions, cloud_.positions[point],
-                 neighbors.first(static_cast<std::size_t>(options_.neighbors)));
+    map_.collect(cloud_.positions, cloud_.positions[point], neighbors.first(static_cast<std::size_t>(size)));
     const int lines = map_.lines().count;
     min_cluster_ = options_.min_cluster.value_or(std::max(3, (lines + 9) / 10));
     if (lines < 3) {
@@ -112,14 +136,34 @@ class PointLabeler {
     else read_faces();
   }
 
-  [[nodiscard]] std::span<const Step> steps() const { return steps_; }
-  /// The largest angle at which two significant clusters become one, in degrees.
-  [[nodiscard]] float score() const { return score_; }
-  /// Lines of a significant cluster.
-  [[nodiscard]] int min_cluster() const { return min_cluster_; }
-  [[nodiscard]] const GaussMap& map() const { return map_; }
+  /// At every sensitivity the majority of the sizes decides whether the point is sharp, the first of those
+  /// that agree what it is. Sizes for which there are too few points have no say.
+  void combine_views() {
+    if (views_[0][0].kind == Kind::Undecided) {
+      steps_ = views_[0];
+      return;
+    }
+    std::erase_if(views_, [](const std::vector<Step>& view) { return view[0].kind == Kind::Undecided; });
+    changes_.clear();
+    for (const std::vector<Step>& view : views_)
+      for (const Step& step : view) changes_.push_back({step.from, 0});
+    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
+    steps_.clear();
+    for (const Change& change : changes_) {
+      const auto step_of = [&](const std::vector<Step>& view) {
+        return *std::find_if(view.rbegin(), view.rend(), [&](const Step& s) { return s.from <= change.at; });
+      };
+      const auto sharp = std::count_if(views_.begin(), views_.end(),
+                                       [&](const auto& view) { return is_feature(step_of(view).kind); });
+      const bool is_sharp = 2 * sharp > static_cast<std::ptrdiff_t>(views_.size());
+      const auto agrees = std::find_if(views_.begin(), views_.end(), [&](const auto& view) {
+        return is_feature(step_of(view).kind) == is_sharp;
+      });
+      const Step step = step_of(*agrees);
+      push_step({change.at, step.kind, step.clusters});
+    }
+  }
 
- private:
   [[nodiscard]] bool is_significant(std::uint32_t size) const {
     return size >= static_cast<std::uint32_t>(min_cluster_);
   }
@@ -219,12 +263,14 @@ class PointLabeler {
   const Neighborhoods& neighborhoods_;
   const GaussOptions& options_;
   int max_clusters_;
+  std::vector<int> sizes_;
   double persistence_;
   GaussMap map_;
   FaceWorkspace workspace_;
   std::vector<Face> faces_;
   std::vector<Change> changes_;
   std::vector<Step> steps_;
+  std::vector<std::vector<Step>> views_;  // the steps at each of sizes_
   int min_cluster_ = 0;
   double sharpness_ = 0;
   float score_ = 0;
@@ -248,7 +294,8 @@ constexpr std::size_t block_size = 1024;
 LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                            const GaussOptions& options, Progress& progress, std::vector<float>& score) {
   const std::size_t count = cloud.size();
-  const std::uint64_t memory = GaussMap::memory(options.neighbors);
+  const std::vector<int> sizes = neighborhood_sizes(options.neighbors, options.scales);
+  const std::uint64_t memory = GaussMap::memory(*std::max_element(sizes.begin(), sizes.end()));
   const std::uint64_t threads =
       std::min<std::uint64_t>(static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency()), count);
   require_memory(threads * memory, fmt::format("Gauss map clustering with {} neighbors on {} threads",
@@ -303,6 +350,18 @@ LabelSpectrum spectrum_of_one(std::span<const Step> steps) {
 
 }  // namespace
 
+std::vector<int> neighborhood_sizes(int neighbors, int scales) {
+  std::vector<int> sizes;
+  for (int i = 0; i < scales; ++i) {
+    const int half_octaves = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
+    double size = neighbors;
+    for (int step = 0; step < std::abs(half_octaves); ++step)
+      size = half_octaves > 0 ? size * 1.4142135623730951 : size / 1.4142135623730951;
+    sizes.push_back(std::clamp(static_cast<int>(std::lround(size)), min_neighbors, max_neighbors));
+  }
+  return sizes;
+}
+
 FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                            const GaussOptions& options, Progress& progress) {
   require_usable(cloud, neighborhoods, options);
@@ -336,10 +395,11 @@ PointGaussMap gauss_map(const PointCloud& cloud, const Neighborhoods& neighborho
   if (is_local) result.sigma_deg = sensitivity / angle_units_per_degree;
   result.kind = own.kind[step_at(own, 0, sensitivity)];
 
-  const kernels::Lines lines = labeler.map().lines();
+  const GaussMap& map = labeler.clustered_map();
+  const kernels::Lines lines = map.lines();
   const auto count = static_cast<std::size_t>(lines.count);
   for (std::size_t i = 0; i < count; ++i) result.lines.push_back({lines.x[i], lines.y[i], lines.z[i]});
-  const std::vector<std::uint32_t> names = clusters_of_lines(labeler.map(), sensitivity);
+  const std::vector<std::uint32_t> names = clusters_of_lines(map, sensitivity);
   std::vector<int> sizes(count);
   for (const std::uint32_t name : names) ++sizes[name];
   std::vector<std::uint32_t> significant;

@@ -18,6 +18,9 @@ struct PointCloud;
 struct GaussOptions {
   /// Neighbours that a point needs to be decided; with fewer it is undecided. 3 to 255.
   int neighbors = 16;
+  /// So many sizes of neighbourhood are looked at, see neighborhood_sizes(), and the majority decides whether
+  /// a point is sharp. 1 to 5.
+  int scales = 1;
   /// Sensitivity: lines closer than this on average are one direction. With plain, Auto is the paper's 20
   /// degrees.
   SigmaRule sigma_rule = SigmaRule::Auto;
@@ -35,8 +38,8 @@ struct GaussOptions {
   /// own; see find_faces(). 1 to 90. Empty = 3, or 2 unless thin, where nothing else tells an edge from
   /// chance.
   std::optional<double> persistence;
-  /// Sharp points with fewer sharp points among their 16 nearest neighbours are not taken for sharp: chance,
-  /// not a line. 0 to 16.
+  /// Sharp points with fewer sharp points among their 16 nearest neighbours are not taken for sharp, border
+  /// points with fewer border points not for borders: chance, not a line. 0 to 16.
   int min_support = 1;
   /// Of the band of points that see several faces, about two spacings to each side of an edge, only those at
   /// which the faces end and for which is_beside_crease() does not hold: one point thin where points lie on
@@ -47,6 +50,10 @@ struct GaussOptions {
   /// Return the labels of all other sensitivities too: FeatureLabels::spectrum.
   bool keep_spectrum = false;
 };
+
+/// The sizes that `scales` stands for: `neighbors` first, then by turns larger and smaller ones in steps of
+/// the square root of 2, from 3 to 255.
+[[nodiscard]] std::vector<int> neighborhood_sizes(int neighbors, int scales);
 
 /// Sharp features by Gauss map clustering: every triangle of a point and two of its neighbours gives a line
 /// through the unit sphere; lines are clustered by average linkage on the angle between them.

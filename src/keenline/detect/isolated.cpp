@@ -27,10 +27,17 @@ struct Steps {
   }
 };
 
-bool is_ever_feature(const LabelSpectrum& spectrum, std::size_t point) {
+/// A peak stands by itself.
+bool needs_support(Kind kind) { return (is_feature(kind) && kind != Kind::Peak) || kind == Kind::Border; }
+
+bool supports(Kind neighbor, Kind kind) {
+  return kind == Kind::Border ? neighbor == Kind::Border : is_feature(neighbor);
+}
+
+bool ever_needs_support(const LabelSpectrum& spectrum, std::size_t point) {
   return std::any_of(spectrum.kind.begin() + static_cast<std::ptrdiff_t>(spectrum.offsets[point]),
                      spectrum.kind.begin() + static_cast<std::ptrdiff_t>(spectrum.offsets[point + 1]),
-                     is_feature);
+                     needs_support);
 }
 
 /// Appends the filtered steps of one point; `changes` is working memory.
@@ -39,7 +46,7 @@ std::size_t filter(const LabelSpectrum& spectrum, std::span<const std::uint32_t>
   const std::size_t first = spectrum.offsets[point];
   const std::size_t last = spectrum.offsets[point + 1];
   const std::size_t before = steps.from.size();
-  if (!is_ever_feature(spectrum, point)) {
+  if (!ever_needs_support(spectrum, point)) {
     for (std::size_t s = first; s < last; ++s)
       steps.append(spectrum.from[s], spectrum.kind[s], spectrum.clusters[s]);
     return last - first;
@@ -54,11 +61,12 @@ std::size_t filter(const LabelSpectrum& spectrum, std::span<const std::uint32_t>
   for (const std::uint16_t at : changes) {
     const std::size_t own = step_at(spectrum, point, at);
     Kind kind = spectrum.kind[own];
-    if (is_feature(kind) && kind != Kind::Peak) {  // a peak is a feature by itself
+    if (needs_support(kind)) {
       const auto support = std::count_if(neighbors.begin(), neighbors.end(), [&](std::uint32_t q) {
-        return is_feature(spectrum.kind[step_at(spectrum, q, at)]);
+        return supports(spectrum.kind[step_at(spectrum, q, at)], kind);
       });
-      if (support < min_support) kind = Kind::Curved;
+      // A border is a lone face.
+      if (support < min_support) kind = kind == Kind::Border ? Kind::Flat : Kind::Curved;
     }
     const bool same = steps.from.size() > before && steps.kind.back() == kind &&
                       steps.clusters.back() == spectrum.clusters[own];

@@ -24,6 +24,9 @@ constexpr std::array gauss_options{
                "Nearest neighbours whose triangles make the Gauss map; auto = 16, up to 24 as noise grows",
                OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
                "auto"},
+    OptionInfo{"scales",
+               "Sizes of neighbourhood to look at, by turns larger and smaller than --neighbors; most decide",
+               OptionInfo::Type::Integer, 1, 5, false, "sizes", 1, ""},
     OptionInfo{"sigma",
                "Sensitivity: lines closer than this on average are one direction; auto = one from the cloud, "
                "local = one for every point",
@@ -53,8 +56,14 @@ constexpr std::array gauss_options{
 
 constexpr int paper_neighbors = 16;
 
-int gauss_reach(const OptionValues& values) {
+int gauss_neighbors(const OptionValues& values) {
   return static_cast<int>(values.at("neighbors").value_or(paper_neighbors));
+}
+
+int gauss_reach(const OptionValues& values) {
+  const std::vector<int> sizes =
+      neighborhood_sizes(gauss_neighbors(values), static_cast<int>(*values.at("scales")));
+  return *std::max_element(sizes.begin(), sizes.end());
 }
 
 bool gauss_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
@@ -163,7 +172,8 @@ OptionValues resolve_options(const Method& method, const OptionValues& given) {
 
 GaussOptions gauss_options_from(const OptionValues& values) {
   GaussOptions options;
-  options.neighbors = gauss_reach(values);
+  options.neighbors = gauss_neighbors(values);
+  options.scales = static_cast<int>(*values.at("scales"));
   if (const auto& sigma_deg = values.at("sigma")) {
     options.sigma_rule = *sigma_deg > 0 ? SigmaRule::Given : SigmaRule::Local;
     options.sigma_deg = *sigma_deg;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -44,6 +46,32 @@ std::vector<bool> positives(const Column& column) {
   return result;
 }
 
+void require_same_size(const PointCloud& prediction, const PointCloud& truth) {
+  if (prediction.size() == truth.size()) return;
+  throw InvalidArgument(
+      fmt::format("the prediction has {} points, the truth {}", prediction.size(), truth.size()));
+}
+
+/// For every point the place of its kind in all_kinds.
+std::vector<std::size_t> kinds_in(const PointCloud& cloud, std::string_view attribute) {
+  const Column* const column = cloud.attribute(attribute);
+  if (column == nullptr || column->is_list())
+    throw InvalidArgument(
+        fmt::format("there is no attribute {} with one number per point", quoted(attribute)));
+  std::vector<std::size_t> kinds;
+  kinds.reserve(column->rows());
+  for (std::size_t i = 0; i < column->rows(); ++i) {
+    const double number = column->value(i);
+    const auto kind = std::find_if(all_kinds.begin(), all_kinds.end(),
+                                   [&](Kind k) { return static_cast<double>(k) == number; });
+    if (kind == all_kinds.end())
+      throw InvalidArgument(
+          fmt::format("attribute {} of point {} is {}, which is no kind", quoted(attribute), i, number));
+    kinds.push_back(static_cast<std::size_t>(kind - all_kinds.begin()));
+  }
+  return kinds;
+}
+
 }  // namespace
 
 Confusion compare(const PointCloud& prediction, const PointCloud& truth) {
@@ -53,11 +81,7 @@ Confusion compare(const PointCloud& prediction, const PointCloud& truth) {
   if (expected == nullptr) expected = truth.attribute("truth_feature");
   if (expected == nullptr)
     throw InvalidArgument("the truth has neither attribute 'truth' nor 'truth_feature'");
-  if (prediction.size() != truth.size()) {
-    throw InvalidArgument(
-        fmt::format("the prediction has {} points, the truth {}", prediction.size(), truth.size()));
-  }
-
+  require_same_size(prediction, truth);
   const std::vector<bool> found = positives(*predicted);
   const std::vector<bool> real = positives(*expected);
   Confusion c;
@@ -66,6 +90,21 @@ Confusion compare(const PointCloud& prediction, const PointCloud& truth) {
     else ++(real[i] ? c.false_negative : c.true_negative);
   }
   return c;
+}
+
+KindConfusion& KindConfusion::operator+=(const KindConfusion& other) {
+  for (std::size_t t = 0; t < counts.size(); ++t)
+    for (std::size_t f = 0; f < counts.size(); ++f) counts[t][f] += other.counts[t][f];
+  return *this;
+}
+
+KindConfusion compare_kinds(const PointCloud& prediction, const PointCloud& truth) {
+  const std::vector<std::size_t> found = kinds_in(prediction, "kind");
+  const std::vector<std::size_t> real = kinds_in(truth, "truth_kind");
+  require_same_size(prediction, truth);
+  KindConfusion confusion;
+  for (std::size_t i = 0; i < found.size(); ++i) ++confusion.counts[real[i]][found[i]];
+  return confusion;
 }
 
 double precision(const Confusion& c) {

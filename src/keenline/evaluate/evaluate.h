@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "keenline/cloud.h"
+#include "keenline/labels.h"
 
 namespace keenline {
 
@@ -44,6 +46,18 @@ struct Scores {
 };
 
 [[nodiscard]] Scores scores(const Confusion& c);
+
+/// How often a point of one kind was taken for another: counts[truth][found], places as in all_kinds.
+struct KindConfusion {
+  std::array<std::array<std::uint64_t, all_kinds.size()>, all_kinds.size()> counts{};
+
+  KindConfusion& operator+=(const KindConfusion& other);
+};
+
+/// Compares point by point attribute `kind` of `prediction` with attribute `truth_kind` of `truth`. Both may
+/// be the same cloud. \throw InvalidArgument when an attribute is missing, holds something else than numbers
+/// of kinds, or the clouds differ in size.
+[[nodiscard]] KindConfusion compare_kinds(const PointCloud& prediction, const PointCloud& truth);
 
 /// The scores of several clouds in one.
 struct Summary {
