@@ -3,9 +3,10 @@
 # make test    set up, build, run the tests
 # make check   the slower checks: sanitizers, fuzzing, format, lint, the installed package
 # make figures   the paper's figures as PNG, in build/figures
+# make bench       speed: neighbours, detection, rivals, as ratios in one run
 # make benchmark   accuracy on the benchmark clouds, where they are present
 
-.PHONY: build demo test check figures benchmark format clean
+.PHONY: build demo test check figures bench benchmark format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -28,6 +29,13 @@ check:
 
 figures: build
 	scripts/figures.sh build/release/bin/keenline build/figures
+
+bench:
+	scripts/setup.sh bench
+	cmake --preset bench
+	cmake --build --preset bench
+	build/bench/bin/neighbors_bench all
+	build/bench/bin/speed_bench
 
 benchmark: build
 	bench/edge_benchmark.sh build/release/bin/keenline ../shared/data/edge-benchmark build/benchmark

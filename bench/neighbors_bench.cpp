@@ -7,57 +7,30 @@
 // all threads is by the clock on the wall and wants an idle machine.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <nanoflann.hpp>
 #include <oneapi/tbb/global_control.h>
 
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/synth/synth.h"
 
+#include "nanoflann_pass.h"
+#include "stop_watch.h"
+
 namespace {
 
 using namespace keenline;
-
-/// What nanoflann reads: single precision about the first point, in the order of the file.
-struct Floats {
-  explicit Floats(const PointCloud& cloud) {
-    for (const Point& p : cloud.positions)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        xyz.push_back(static_cast<float>(p[axis] - cloud.positions[0][axis]));
-  }
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return xyz.size() / 3; }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const { return xyz[3 * i + axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-  std::vector<float> xyz;
-};
-
-/// The table, so that nothing is optimised away.
-std::vector<std::uint32_t> nanoflann_pass(const Floats& floats, std::size_t count) {
-  using Distance = nanoflann::L2_Simple_Adaptor<float, Floats>;
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<Distance, Floats, 3, std::uint32_t>;
-  const Tree tree(3, floats, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-  const std::size_t points = floats.kdtree_get_point_count();
-  const std::size_t width = count + 1;  // each finds itself too
-  std::vector<std::uint32_t> table(points * width);
-  std::vector<float> distances(width);
-  for (std::size_t i = 0; i < points; ++i)
-    tree.knnSearch(&floats.xyz[3 * i], width, &table[i * width], distances.data());
-  return table;
-}
+using bench::median;
+using bench::processor_s;
+using bench::wall_s;
 
 using Place = std::function<Point(std::size_t i)>;
 
@@ -109,28 +82,10 @@ PointCloud make_cloud(const std::string& name, std::size_t count) {
   return synthesize(options).cloud;
 }
 
-double processor_s(const std::function<void()>& work) {
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-double wall_s(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void compare(const std::string& name, std::size_t count, int neighbors, int rounds) {
   const PointCloud cloud = make_cloud(name, count);
-  const Floats floats(cloud);
   std::uint64_t sum = 0;  // of something from every result
-  const auto theirs = [&] { sum += nanoflann_pass(floats, static_cast<std::size_t>(neighbors)).back(); };
+  const auto theirs = [&] { sum += bench::nanoflann_pass(cloud, neighbors).back(); };
   const auto ours = [&] { sum += find_neighborhoods(cloud, neighbors).indices.back(); };
   const auto index = [&] { const NeighborSearch search(cloud.positions); };
   std::vector<double> nanoflann_s;

@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
-# Installs what `make build`, `make test` or `make check` needs, where this is Debian or Ubuntu and we may.
+# Installs what `make build`, `make test`, `make check` or `make bench` needs, where this is Debian or Ubuntu and we may.
 # Elsewhere it prints what is missing and succeeds when nothing is.
 set -euo pipefail
 
-level=${1:?usage: scripts/setup.sh build|test|check}
+level=${1:?usage: scripts/setup.sh build|test|check|bench}
 packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev libsqlite3-dev libhwy-dev)
 tools=(c++ cmake ninja)
 headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h sqlite3.h hwy/highway.h)
 case $level in
   build) ;;
+  bench)
+    packages+=(libbenchmark-dev libnanoflann-dev libcgal-dev)
+    headers+=(benchmark/benchmark.h nanoflann.hpp) ;;
   test|check)
     packages+=(libgtest-dev python3 python3-ezdxf)
     tools+=(python3)
@@ -17,7 +20,7 @@ case $level in
     packages+=(clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)
     tools+=(clang++-14 clang-tidy-14 clang-format-14) ;;
   test) ;;
-  *) echo "setup: unknown level '$level': expected build, test or check" >&2; exit 2 ;;
+  *) echo "setup: unknown level '$level': expected build, test, check or bench" >&2; exit 2 ;;
 esac
 
 if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
