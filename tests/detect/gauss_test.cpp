@@ -68,6 +68,13 @@ PointCloud star(const std::vector<Point>& directions) {
   return cloud;
 }
 
+/// Of point 0: the others see no surface that could support it.
+GaussOptions alone() {
+  GaussOptions options;
+  options.min_support = 0;
+  return options;
+}
+
 Point in_plane(double angle_deg) {
   const double a = angle_deg * std::numbers::pi / 180;
   return {std::cos(a), std::sin(a), 0};
@@ -76,7 +83,7 @@ Point in_plane(double angle_deg) {
 TEST(Gauss, APlaneIsOneCluster) {
   std::vector<Point> directions;
   for (int i = 0; i < 16; ++i) directions.push_back(in_plane(22.5 * i + 3));
-  const FeatureLabels labels = detect(star(directions));
+  const FeatureLabels labels = detect(star(directions), alone());
   EXPECT_EQ(labels.kind[0], Kind::Flat);
   EXPECT_EQ(labels.clusters[0], 1);
   EXPECT_EQ(labels.score[0], 0);
@@ -90,7 +97,7 @@ TEST(Gauss, AFoldOfTwoPlanesIsTwoClusters) {
     directions.push_back({d[0], d[1], 0});
     directions.push_back({0, d[1] + 0.01, d[0]});
   }
-  const FeatureLabels labels = detect(star(directions));
+  const FeatureLabels labels = detect(star(directions), alone());
   EXPECT_EQ(labels.kind[0], Kind::Edge);
   EXPECT_EQ(labels.clusters[0], 2);
   EXPECT_GT(labels.score[0], 20);
@@ -105,7 +112,7 @@ TEST(Gauss, ACornerOfThreePlanesIsThreeClusters) {
     directions.push_back({d[1], 0, d[0]});
   }
   directions.push_back(in_plane(44));
-  const FeatureLabels labels = detect(star(directions));
+  const FeatureLabels labels = detect(star(directions), alone());
   EXPECT_EQ(labels.kind[0], Kind::Corner);
   EXPECT_EQ(labels.clusters[0], 3);
 }

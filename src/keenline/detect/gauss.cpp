@@ -96,6 +96,17 @@ class PointLabeler {
   }
 
   [[nodiscard]] std::span<const Step> steps() const { return steps_; }
+  /// Of the two faces that are told apart best.
+  [[nodiscard]] CreaseDirection direction() const {
+    if (faces_.size() < 2) return {};
+    const Point& a = faces_[0].normal;
+    const Point& b = faces_[1].normal;
+    Point along{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+    if (!(length > 0)) return {};
+    for (double& c : along) c /= length;
+    return quantized(along);
+  }
   /// The largest angle at which two significant clusters become one, in degrees.
   [[nodiscard]] float score() const { return score_; }
   /// Lines of a significant cluster.
@@ -110,6 +121,7 @@ class PointLabeler {
   /// Labels the point by that many neighbours.
   void look(std::size_t point, int size) {
     steps_.clear();
+    faces_.clear();
     score_ = 0;
     map_.clear();
     const auto neighbors = neighborhoods_.of(point);
@@ -292,7 +304,8 @@ constexpr std::size_t block_size = 1024;
 
 /// Labels all points on all threads; every block of points has its own list of steps, joined in order.
 LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                           const GaussOptions& options, Progress& progress, std::vector<float>& score) {
+                           const GaussOptions& options, Progress& progress, std::vector<float>& score,
+                           std::vector<CreaseDirection>& directions) {
   const std::size_t count = cloud.size();
   const std::vector<int> sizes = neighborhood_sizes(options.neighbors, options.scales);
   const std::uint64_t memory = GaussMap::memory(*std::max_element(sizes.begin(), sizes.end()));
@@ -307,6 +320,7 @@ LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighbo
   LabelSpectrum spectrum;
   spectrum.offsets.resize(count + 1);
   score.resize(count);
+  directions.resize(count);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, blocks, 1), [&](const tbb::blocked_range<std::size_t>& range) {
         PointLabeler& labeler = labelers.local();
@@ -316,6 +330,7 @@ LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighbo
             progress.check();
             labeler.label(i);
             score[i] = labeler.score();
+            directions[i] = labeler.direction();
             spectrum.offsets[i + 1] = labeler.steps().size();
             steps[block].insert(steps[block].end(), labeler.steps().begin(), labeler.steps().end());
           }
@@ -367,9 +382,11 @@ FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighbo
   require_usable(cloud, neighborhoods, options);
   progress.begin("gauss", cloud.size());
   std::vector<float> score;
-  LabelSpectrum spectrum = label_points(cloud, neighborhoods, options, progress, score);
+  std::vector<CreaseDirection> directions;
+  LabelSpectrum spectrum = label_points(cloud, neighborhoods, options, progress, score, directions);
   if (!options.plain && options.min_support > 0)
-    spectrum = without_isolated(spectrum, neighborhoods, options.min_support, progress);
+    spectrum =
+        without_isolated(spectrum, neighborhoods, cloud.positions, directions, options.min_support, progress);
   const bool is_the_papers = options.plain && options.sigma_rule == SigmaRule::Auto;
   FeatureLabels labels = is_the_papers ? relabel(spectrum, default_sigma_deg)
                                        : relabel(spectrum, options.sigma_rule, options.sigma_deg, progress);

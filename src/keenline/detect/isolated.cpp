@@ -1,6 +1,7 @@
 #include "keenline/detect/isolated.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -30,8 +31,47 @@ struct Steps {
 /// A peak stands by itself.
 bool needs_support(Kind kind) { return (is_feature(kind) && kind != Kind::Peak) || kind == Kind::Border; }
 
-bool supports(Kind neighbor, Kind kind) {
-  return kind == Kind::Border ? neighbor == Kind::Border : is_feature(neighbor);
+/// Everything that the filter looks at.
+struct Cloud {
+  const LabelSpectrum& spectrum;
+  const Neighborhoods& neighborhoods;
+  const std::vector<Point>& positions;
+  const std::vector<CreaseDirection>& directions;
+  int min_support;
+};
+
+/// Is `way` within 35 degrees of the crease that a point of this kind lies on?
+bool runs_along(const Point& way, Kind kind, const CreaseDirection& direction) {
+  const Point d{static_cast<double>(direction.x), static_cast<double>(direction.y),
+                static_cast<double>(direction.z)};
+  const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  if (kind != Kind::Edge || square == 0) return true;
+  constexpr double smallest_square_of_cosine = 0.67101007166283433;  // 35 degrees
+  const double product = way[0] * d[0] + way[1] * d[1] + way[2] * d[2];
+  const double way_square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+  return product * product >= smallest_square_of_cosine * square * way_square;
+}
+
+/// Its direction, with a largest coordinate of 1: squares of the largest and smallest clouds leave the range
+/// of doubles. Halves, because the difference of the largest does too.
+Point way_between(const Point& from, const Point& to) {
+  Point way;
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    way[axis] = to[axis] * 0.5 - from[axis] * 0.5;
+    largest = std::max(largest, std::abs(way[axis]));
+  }
+  if (largest > 0)
+    for (double& c : way) c /= largest;
+  return way;
+}
+
+bool supports(const Cloud& cloud, std::size_t point, Kind kind, std::uint32_t neighbor, Kind neighbor_kind) {
+  if (kind == Kind::Border) return neighbor_kind == Kind::Border;
+  if (!is_feature(neighbor_kind)) return false;
+  const Point way = way_between(cloud.positions[point], cloud.positions[neighbor]);
+  return runs_along(way, kind, cloud.directions[point]) &&
+         runs_along(way, neighbor_kind, cloud.directions[neighbor]);
 }
 
 bool ever_needs_support(const LabelSpectrum& spectrum, std::size_t point) {
@@ -41,8 +81,10 @@ bool ever_needs_support(const LabelSpectrum& spectrum, std::size_t point) {
 }
 
 /// Appends the filtered steps of one point; `changes` is working memory.
-std::size_t filter(const LabelSpectrum& spectrum, std::span<const std::uint32_t> neighbors, std::size_t point,
-                   int min_support, std::vector<std::uint16_t>& changes, Steps& steps) {
+std::size_t filter(const Cloud& cloud, std::size_t point, std::vector<std::uint16_t>& changes, Steps& steps) {
+  const LabelSpectrum& spectrum = cloud.spectrum;
+  const auto all_neighbors = cloud.neighborhoods.of(point);
+  const auto neighbors = all_neighbors.first(std::min(all_neighbors.size(), neighbors_that_support));
   const std::size_t first = spectrum.offsets[point];
   const std::size_t last = spectrum.offsets[point + 1];
   const std::size_t before = steps.from.size();
@@ -63,10 +105,10 @@ std::size_t filter(const LabelSpectrum& spectrum, std::span<const std::uint32_t>
     Kind kind = spectrum.kind[own];
     if (needs_support(kind)) {
       const auto support = std::count_if(neighbors.begin(), neighbors.end(), [&](std::uint32_t q) {
-        return supports(spectrum.kind[step_at(spectrum, q, at)], kind);
+        return supports(cloud, point, kind, q, spectrum.kind[step_at(spectrum, q, at)]);
       });
       // A border is a lone face.
-      if (support < min_support) kind = kind == Kind::Border ? Kind::Flat : Kind::Curved;
+      if (support < cloud.min_support) kind = kind == Kind::Border ? Kind::Flat : Kind::Curved;
     }
     const bool same = steps.from.size() > before && steps.kind.back() == kind &&
                       steps.clusters.back() == spectrum.clusters[own];
@@ -77,8 +119,16 @@ std::size_t filter(const LabelSpectrum& spectrum, std::span<const std::uint32_t>
 
 }  // namespace
 
+CreaseDirection quantized(const Point& direction) {
+  const auto whole = [](double c) { return static_cast<std::int8_t>(std::lround(127 * c)); };
+  return {whole(direction[0]), whole(direction[1]), whole(direction[2])};
+}
+
 LabelSpectrum without_isolated(const LabelSpectrum& spectrum, const Neighborhoods& neighborhoods,
-                               int min_support, Progress& progress) {
+                               const std::vector<Point>& positions,
+                               const std::vector<CreaseDirection>& directions, int min_support,
+                               Progress& progress) {
+  const Cloud cloud{spectrum, neighborhoods, positions, directions, min_support};
   const std::size_t count = spectrum.size();
   const std::size_t blocks = (count + block_size - 1) / block_size;
   std::vector<Steps> parts(blocks);
@@ -90,10 +140,7 @@ LabelSpectrum without_isolated(const LabelSpectrum& spectrum, const Neighborhood
         for (std::size_t block = range.begin(); block < range.end(); ++block) {
           progress.check();
           for (std::size_t i = block * block_size; i < std::min(count, (block + 1) * block_size); ++i) {
-            const auto neighbors = neighborhoods.of(i);
-            result.offsets[i + 1] =
-                filter(spectrum, neighbors.first(std::min(neighbors.size(), neighbors_that_support)), i,
-                       min_support, changes, parts[block]);
+            result.offsets[i + 1] = filter(cloud, i, changes, parts[block]);
           }
         }
       });
