@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The figures of Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", made by the program alone.
+# The figures of Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", made by the program alone, and
+# what the method does by itself.
 # docs/methods/gauss.md shows them and says what differs from the paper.
 set -euo pipefail
 
@@ -17,12 +18,14 @@ cloud() {
   "$keenline" synth "$shape" -o "$work/$name.ply" --points "$points" --quiet "$@"
 }
 
-# labels NAME CLOUD [detect options]: its labels by the paper's section 4
+# labels NAME CLOUD [detect options]: its labels by the paper's section 4; found: those of a first command
 labels() {
   local name=$1 source=$2
   shift 2
   "$keenline" detect "$work/$source.ply" -o "$work/$name.ply" --plain --quiet "$@"
 }
+
+found() { "$keenline" detect "$work/$2.ply" -o "$work/$1.ply" --quiet; }
 
 # sheet FIGURE [picture options]: the clouds and captions gathered by add on one sheet
 shown=()
@@ -76,3 +79,15 @@ for shape in cube icosahedron trim-star fandisk vase; do
   add "gallery-$shape-labels" "$shape"
 done
 sheet figure6 --columns 3 --size 370,300
+
+# No options at all: random points, points on the edges as well, noise.
+for shape in cube fandisk; do
+  cloud "default-$shape-random" "$shape"
+  cloud "default-$shape-mesh" "$shape" --sampling mesh
+  cloud "default-$shape-noise" "$shape" --noise 0.1h
+  for kind in random mesh noise; do found "default-$shape-$kind-labels" "default-$shape-$kind"; done
+  add "default-$shape-random-labels" "$shape, random points"
+  add "default-$shape-mesh-labels" "$shape, points on edges too"
+  add "default-$shape-noise-labels" "$shape, noise 10 % of the spacing"
+done
+sheet default --columns 3 --size 370,300
