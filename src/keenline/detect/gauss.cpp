@@ -330,7 +330,8 @@ LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighbo
             progress.check();
             labeler.label(i);
             score[i] = labeler.score();
-            directions[i] = labeler.direction();
+            // Across a band, too, one point continues another.
+            if (options.thin) directions[i] = labeler.direction();
             spectrum.offsets[i + 1] = labeler.steps().size();
             steps[block].insert(steps[block].end(), labeler.steps().begin(), labeler.steps().end());
           }
