@@ -70,8 +70,7 @@ TEST(Registry, WhatFollowsTheNoiseIsFilledIn) {
     return std::pair(*values.at("neighbors"), *values.at("min-sine"));
   };
   EXPECT_EQ(adapted(0), std::pair(16.0, 0.001));
-  EXPECT_EQ(adapted(0.1), std::pair(16.0, 0.1));
-  EXPECT_EQ(adapted(0.15), std::pair(20.0, 0.15));
+  EXPECT_EQ(adapted(0.1), std::pair(20.0, 0.1));
   EXPECT_EQ(adapted(0.2).first, 24.0);
   EXPECT_EQ(adapted(7), std::pair(24.0, 0.3));
   EXPECT_EQ(adapted(7, {{"plain", 1.0}}), std::pair(16.0, 0.001));

@@ -74,7 +74,7 @@ void gauss_adapt(OptionValues& values, double noise, std::size_t points) {
   // every further neighbour may lie on another face; half as many again is what the benchmark clouds bear.
   auto& neighbors = values.at("neighbors");
   if (!neighbors) {
-    const double more = plain ? 0.0 : std::round(8 * std::clamp((noise - 0.1) / 0.1, 0.0, 1.0));
+    const double more = plain ? 0.0 : std::round(8 * std::min(1.0, noise / 0.2));
     // No more than there are: a small cloud is not to be undecided because it is noisy.
     neighbors =
         std::min(paper_neighbors + more, std::max<double>(paper_neighbors, static_cast<double>(points) - 1));
