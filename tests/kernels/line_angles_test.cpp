@@ -130,25 +130,6 @@ TEST(LineAngles, TheSmallestCosineIsThatOfTheFurthestLine) {
   }
 }
 
-TEST(LineAngles, AllWithinAnAngleOfALine) {
-  const std::vector<float> x{1, -0.8F, 0.6F};
-  const std::vector<float> y{0, 0.6F, 0.8F};
-  const std::vector<float> z{0, 0, 0};
-  const double furthest = line_angle(0.6F);
-  on_each_target([&] {
-    EXPECT_TRUE(all_within(Lines{x.data(), y.data(), z.data(), 3}, 1, 0, 0, furthest));
-    EXPECT_FALSE(all_within(Lines{x.data(), y.data(), z.data(), 3}, 1, 0, 0, furthest - 1));
-    EXPECT_TRUE(all_within(Lines{x.data(), y.data(), z.data(), 2}, 1, 0, 0, furthest - 1));
-  });
-}
-
-TEST(LineAngles, MeanAngleToADirection) {
-  const std::vector<float> x{1, 0, 0};
-  const std::vector<float> y{0, -1, 0.5F};
-  const std::vector<float> z{0, 0, static_cast<float>(std::sqrt(0.75))};
-  EXPECT_EQ(mean_angle_to(Lines{x.data(), y.data(), z.data(), 3}, 0, 1, 0), (90 + 0 + 60) * 728 / 3.0);
-}
-
 TEST(LineAngles, AllWithinIsNeverWronglyTrue) {
   // Two lines at +a and -a beside the first: a from it, 2a apart.
   for (const double degrees : {0.1, 0.5, 1.0, 5.0, 20.0}) {

@@ -180,22 +180,12 @@ void line_angles(const Lines& lines, Sum* angles) {
 template void line_angles<std::uint32_t>(const Lines&, std::uint32_t*);
 template void line_angles<std::uint64_t>(const Lines&, std::uint64_t*);
 
-double mean_angle_to(const Lines& lines, float x, float y, float z) {
-  std::uint64_t sum = 0;
-  for (int i = 0; i < lines.count; ++i) sum += line_angle(lines.x[i] * x + lines.y[i] * y + lines.z[i] * z);
-  return static_cast<double>(sum) / lines.count;
-}
-
 float smallest_cosine_to(const Lines& lines, float x, float y, float z) {
   if (!target_is_scalar()) return HWY_DYNAMIC_DISPATCH(smallest_cosine)(lines, x, y, z);
   float smallest = 1.0F;
   for (int i = 0; i < lines.count; ++i)
     smallest = std::min(smallest, std::abs(x * lines.x[i] + y * lines.y[i] + z * lines.z[i]));
   return smallest;
-}
-
-bool all_within(const Lines& lines, float x, float y, float z, double units) {
-  return line_angle(smallest_cosine_to(lines, x, y, z)) <= units;
 }
 
 bool all_within(const Lines& lines, double units) {

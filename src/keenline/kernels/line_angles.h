@@ -43,15 +43,9 @@ struct Lines {
 template <typename Sum>
 void line_angles(const Lines& lines, Sum* angles);
 
-/// Mean angle of all lines to the line along (x, y, z), a unit vector, in units. \pre lines.count > 0
-[[nodiscard]] double mean_angle_to(const Lines& lines, float x, float y, float z);
-
 /// The smallest |cosine| between a line and the line along (x, y, z), a unit vector: that of the largest
 /// angle. 1 without lines.
 [[nodiscard]] float smallest_cosine_to(const Lines& lines, float x, float y, float z);
-
-/// Whether all lines are within `units` of the line along (x, y, z), a unit vector.
-[[nodiscard]] bool all_within(const Lines& lines, float x, float y, float z, double units);
 
 /// True only if all lines lie so close to the first that no two of them are further apart than `units`.
 [[nodiscard]] bool all_within(const Lines& lines, double units);
