@@ -23,12 +23,6 @@ constexpr std::size_t points_per_block = 4096;  // at most: thousands may coinci
 
 using Range = tbb::blocked_range<std::size_t>;
 
-void validate(int count) {
-  if (count < min_neighbors || count > max_neighbors)
-    throw InvalidArgument(
-        fmt::format("neighbors: found {}, expected {} to {}", count, min_neighbors, max_neighbors));
-}
-
 /// Appends the points at the found locations in the order (distance, index), at most `count`.
 void append_points(const BoxTree& tree, std::span<const Surroundings::Found> found, std::size_t count,
                    std::vector<std::uint32_t>& points) {
@@ -130,7 +124,7 @@ NeighborSearch::NeighborSearch(const std::vector<Point>& positions, const Progre
 NeighborSearch::~NeighborSearch() = default;
 
 std::vector<std::uint32_t> NeighborSearch::nearest(std::uint32_t point, int count) const {
-  validate(count);
+  require_neighbor_count(count);
   if (point >= size_)
     throw InvalidArgument(fmt::format("point: found {}, expected 0 to {}", point, size_ - 1));
   std::vector<std::uint32_t> neighbors;
@@ -145,7 +139,7 @@ std::vector<std::uint32_t> NeighborSearch::nearest(std::uint32_t point, int coun
 }
 
 void NeighborSearch::for_each_block(int count, const Visit& visit, Progress& progress) const {
-  validate(count);
+  require_neighbor_count(count);
   const std::size_t blocks = (groups_.size() + groups_per_block - 1) / groups_per_block;
   tbb::enumerable_thread_specific<BlockWriter> writers(
       [&] { return BlockWriter(*tree_, static_cast<std::size_t>(count), visit, progress); });
@@ -160,7 +154,7 @@ void NeighborSearch::for_each_block(int count, const Visit& visit, Progress& pro
 }
 
 Neighborhoods NeighborSearch::all(int count, Progress& progress) const {
-  validate(count);
+  require_neighbor_count(count);
   const auto capacity = static_cast<std::size_t>(count);
   require_memory(size_ * (capacity * sizeof(std::uint32_t) + sizeof(std::uint64_t)), "finding neighbours");
   // Every finite point finds the same number: all others, up to count, that do not coincide with it.

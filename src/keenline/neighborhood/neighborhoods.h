@@ -25,6 +25,9 @@ struct Neighborhoods {
 inline constexpr int min_neighbors = 3;
 inline constexpr int max_neighbors = 255;
 
+/// \throw InvalidArgument unless min_neighbors <= count <= max_neighbors
+void require_neighbor_count(int count);
+
 /// The `count` nearest other points of every point, ordered by (distance, index).
 /// Points that coincide with the query are not its neighbours; points that are not finite take no part.
 /// Fewer than `count` are given where the cloud has no more.
