@@ -34,6 +34,7 @@ bench:
 	scripts/setup.sh bench
 	cmake --preset bench
 	cmake --build --preset bench
+	build/bench/bin/keenline_bench
 	build/bench/bin/neighbors_bench all
 	build/bench/bin/speed_bench
 
