@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "keenline/errors.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -19,8 +20,6 @@ template <typename T>
 bool all_usable(const std::vector<T>& values) {
   return std::all_of(values.begin(), values.end(), [](const T& value) { return is_usable(value); });
 }
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool is_unit(const Point& p) { return std::abs(dot(p, p) - 1) < 1e-6; }
 

@@ -7,7 +7,9 @@
 #include "keenline/detect/faces.h"
 #include "keenline/detect/gauss_map.h"
 #include "keenline/kernels/line_angles.h"
+#include "keenline/kernels/portable_math.h"
 #include "keenline/kernels/symmetric3.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -16,8 +18,6 @@ constexpr double largest_sine_off_face = 0.64278760968653933;  // 40 degrees
 constexpr double smallest_squared_sine = 0.01;                 // of the angle between the planes: 6 degrees
 constexpr double smallest_flatness = 0.001;  // of variances: a row of points is in no plane of its own
 constexpr double birth_through_point = 4 * kernels::angle_units_per_degree;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 struct Plane {
   Point normal;
@@ -64,9 +64,8 @@ std::optional<Plane> fit_plane(const GaussMap& map, std::span<const Face> faces,
 
 /// The distance at which k points lie around one if each has a square of side 1 to itself, inverted.
 double spacing_of(const GaussMap& map) {
-  constexpr double pi = 3.141592653589793;
   const auto k = static_cast<double>(map.lengths().size());
-  return map.lengths().back() * std::sqrt(pi / (k + 0.5));
+  return map.lengths().back() * std::sqrt(kernels::pi / (k + 0.5));
 }
 
 }  // namespace
@@ -83,14 +82,10 @@ std::optional<Crease> first_crease(const GaussMap& map, std::span<const Face> fa
   const double along_a = (a->offset - cosine * b->offset) / squared_sine;
   const double along_b = (b->offset - cosine * a->offset) / squared_sine;
   Crease crease;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    crease.foot[axis] = along_a * a->normal[axis] + along_b * b->normal[axis];
-    const std::size_t next = (axis + 1) % 3;
-    const std::size_t last = (axis + 2) % 3;
-    crease.direction[axis] =
-        (a->normal[next] * b->normal[last] - a->normal[last] * b->normal[next]) / std::sqrt(squared_sine);
-  }
-  crease.distance = std::sqrt(dot(crease.foot, crease.foot));
+  crease.foot = sum(scaled(along_a, a->normal), scaled(along_b, b->normal));
+  const Point along = cross(a->normal, b->normal);
+  for (std::size_t axis = 0; axis < 3; ++axis) crease.direction[axis] = along[axis] / std::sqrt(squared_sine);
+  crease.distance = length(crease.foot);
   crease.scatter = std::max(a->scatter, b->scatter);
   return crease;
 }
@@ -103,7 +98,7 @@ bool is_beside_crease(const GaussMap& map, std::span<const Face> faces) {
   if (crease->distance - 2 * crease->scatter <= 0.5 * spacing) return false;
   int better = 0;
   for (const Point& q : map.offsets()) {
-    const Point from_foot{q[0] - crease->foot[0], q[1] - crease->foot[1], q[2] - crease->foot[2]};
+    const Point from_foot = difference(q, crease->foot);
     const double along = dot(from_foot, crease->direction);
     const double squared_distance = dot(from_foot, from_foot) - along * along;
     const bool is_near = std::abs(along) < 2.5 * spacing;

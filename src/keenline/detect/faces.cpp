@@ -7,6 +7,7 @@
 
 #include "keenline/detect/gauss_map.h"
 #include "keenline/kernels/symmetric3.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -26,12 +27,6 @@ double sine_of(double degrees) {
   const double x = degrees * 0.017453292519943295;
   const double y = x * x;
   return x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42)));
-}
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// Counter-clockwise from the positive x axis, without angles.

@@ -25,6 +25,7 @@
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -99,13 +100,8 @@ class PointLabeler {
   /// Of the two faces that are told apart best.
   [[nodiscard]] CreaseDirection direction() const {
     if (faces_.size() < 2) return {};
-    const Point& a = faces_[0].normal;
-    const Point& b = faces_[1].normal;
-    Point along{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
-    if (!(length > 0)) return {};
-    for (double& c : along) c /= length;
-    return quantized(along);
+    const Point along = cross(faces_[0].normal, faces_[1].normal);
+    return length(along) > 0 ? quantized(unit(along)) : CreaseDirection{};
   }
   /// The largest angle at which two significant clusters become one, in degrees.
   [[nodiscard]] float score() const { return score_; }
@@ -220,7 +216,9 @@ class PointLabeler {
   void read_faces() {
     find_faces(map_, min_cluster_, persistence_, workspace_, faces_);
     is_peak_ = sharpness_ > 0 && is_peak(map_);
-    is_beside_ = options_.thin && faces_.size() > 1 && is_beside_crease(map_, faces_);
+    // Every decision that asks for it begins with the first two faces, and asks whether they end first.
+    is_beside_ = options_.thin && faces_.size() > 1 && faces_[0].ends && faces_[1].ends &&
+                 is_beside_crease(map_, faces_);
     // Everything that the decision depends on changes at the deaths of faces and at the height where all
     // significant lines have become one direction.
     changes_.clear();

@@ -7,6 +7,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/detect/gauss_map.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -33,14 +34,6 @@ constexpr double largest_ratio = 0.5;
 
 using Vector6 = std::array<double, 6>;
 using Matrix6 = std::array<Vector6, 6>;  // the lower triangle
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /// One more equation row · x = value, in least squares.
 void add_equation(Matrix6& matrix, Vector6& right, const Vector6& row, double value) {

@@ -5,13 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "keenline/vectors.h"
+
 namespace keenline {
 namespace {
 
 constexpr std::size_t leaf_size = 4;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
 

@@ -16,6 +16,7 @@
 #include "keenline/io/sink.h"
 #include "keenline/kernels/portable_math.h"
 #include "keenline/progress.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -36,15 +37,6 @@ struct Layer {
 constexpr Layer creases{"CREASES", 1};
 constexpr Layer borders{"BORDERS", 5};
 constexpr Layer corners{"CORNERS", 3};
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point unit(const Point& a) {
-  const double length = std::sqrt(dot(a, a));
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
 
 /// The axes in which DXF gives the plane of a circle: its "arbitrary axis algorithm".
 struct ObjectAxes {

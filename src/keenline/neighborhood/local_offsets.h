@@ -6,6 +6,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/kernels/symmetric3.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 
@@ -31,10 +32,6 @@ class LocalOffsets {
   double unit_ = 1;
   double per_unit_ = 1;
 };
-
-[[nodiscard]] inline double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// Adds weight * v * v^T.
 inline void add_square(kernels::Symmetric3& sum, const Point& v, double weight) {

@@ -15,6 +15,7 @@
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {

@@ -14,6 +14,7 @@
 #include "keenline/kernels/portable_math.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
