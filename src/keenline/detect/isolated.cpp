@@ -9,6 +9,7 @@
 
 #include "keenline/detect/relabel.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -44,12 +45,11 @@ struct Cloud {
 bool runs_along(const Point& way, Kind kind, const CreaseDirection& direction) {
   const Point d{static_cast<double>(direction.x), static_cast<double>(direction.y),
                 static_cast<double>(direction.z)};
-  const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const double square = dot(d, d);
   if (kind != Kind::Edge || square == 0) return true;
   constexpr double smallest_square_of_cosine = 0.67101007166283433;  // 35 degrees
-  const double product = way[0] * d[0] + way[1] * d[1] + way[2] * d[2];
-  const double way_square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-  return product * product >= smallest_square_of_cosine * square * way_square;
+  const double product = dot(way, d);
+  return product * product >= smallest_square_of_cosine * square * dot(way, way);
 }
 
 /// Its direction, with a largest coordinate of 1: squares of the largest and smallest clouds leave the range
