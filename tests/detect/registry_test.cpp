@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "keenline/cloud.h"
+#include "keenline/detect/demarsin.h"
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/tensor_voting.h"
+#include "keenline/detect/voters.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighborhoods.h"
 
@@ -145,6 +148,50 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_FALSE(given.thin);
   EXPECT_TRUE(given.plain);
   EXPECT_TRUE(given.keep_spectrum);
+}
+
+TEST(Registry, DemarsinOptionsAreThoseOfTheMethod) {
+  const Method& method = find_method("demarsin");
+  const DemarsinOptions standard;
+  const DemarsinOptions defaults = demarsin_options_from(resolve_options(method, {}));
+  EXPECT_EQ(defaults.normal_neighbors, standard.normal_neighbors);
+  EXPECT_EQ(defaults.region_neighbors, standard.region_neighbors);
+  EXPECT_EQ(defaults.segment_angle_deg, standard.segment_angle_deg);
+  EXPECT_EQ(defaults.min_patch, standard.min_patch);
+  const OptionValues values = resolve_options(
+      method,
+      {{"normal-neighbors", 60.0}, {"region-neighbors", 9.0}, {"segment-angle", 7.5}, {"min-patch", 20.0}});
+  const DemarsinOptions given = demarsin_options_from(values);
+  EXPECT_EQ(given.normal_neighbors, 60);
+  EXPECT_EQ(given.region_neighbors, 9);
+  EXPECT_EQ(given.segment_angle_deg, 7.5);
+  EXPECT_EQ(given.min_patch, 20);
+  EXPECT_EQ(method.reach(values), 60);
+  OptionValues chosen = resolve_options(method, {});
+  EXPECT_EQ(method.reach(chosen), demarsin_view);
+  (void)method.detect(PointCloud{}, Neighborhoods{}, chosen, no_progress());
+  EXPECT_EQ(chosen.at("segment-angle"), 5);
+}
+
+TEST(Registry, TensorVotingOptionsAreThoseOfTheMethod) {
+  const Method& method = find_method("tensor_voting");
+  const TensorVotingOptions standard;
+  const TensorVotingOptions defaults = tensor_voting_options_from(resolve_options(method, {}));
+  EXPECT_EQ(defaults.voting_scale, standard.voting_scale);
+  EXPECT_EQ(defaults.curvature_weight, standard.curvature_weight);
+  EXPECT_EQ(defaults.min_curve, standard.min_curve);
+  EXPECT_EQ(defaults.min_junction, standard.min_junction);
+  const OptionValues values = resolve_options(
+      method, {{"voting-scale", 2.0}, {"curvature-weight", 3.0}, {"min-curve", 0.25}, {"min-junction", 0.5}});
+  const TensorVotingOptions given = tensor_voting_options_from(values);
+  EXPECT_EQ(given.voting_scale, 2);
+  EXPECT_EQ(given.curvature_weight, 3);
+  EXPECT_EQ(given.min_curve, 0.25);
+  EXPECT_EQ(given.min_junction, 0.5);
+  EXPECT_EQ(method.reach(values), voters_within(2));
+  OptionValues chosen = resolve_options(method, {});
+  (void)method.detect(PointCloud{}, Neighborhoods{}, chosen, no_progress());
+  EXPECT_TRUE(chosen.at("min-curve").has_value());
 }
 
 }  // namespace

@@ -9,7 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "keenline/detect/demarsin.h"
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/tensor_voting.h"
+#include "keenline/detect/voters.h"
 #include "keenline/errors.h"
 #include "keenline/io/text.h"
 #include "keenline/neighborhood/neighborhoods.h"
@@ -91,10 +94,68 @@ FeatureLabels gauss_detect(const PointCloud& cloud, const Neighborhoods& neighbo
   return labels;
 }
 
+void adapt_nothing(OptionValues& /*values*/, double /*noise*/, std::size_t /*points*/) {}
+
+bool is_never_plain(const OptionValues& /*values*/) { return false; }
+
+constexpr std::array demarsin_options{
+    OptionInfo{"normal-neighbors", "Nearest neighbours that a normal is taken from",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", 10, ""},
+    OptionInfo{"region-neighbors", "Nearest neighbours that a region grows to", OptionInfo::Type::Integer,
+               min_neighbors, max_neighbors, false, "points", 8, ""},
+    OptionInfo{"segment-angle",
+               "Largest angle between normals of neighbours in one region; auto = thrice the usual, 5 to 10",
+               OptionInfo::Type::Real, 1, 45, false, "degrees", std::nullopt, "auto"},
+    OptionInfo{"min-patch", "Points inside a region that make it a face of the shape",
+               OptionInfo::Type::Integer, 1, 1e9, false, "points", 10, ""},
+};
+
+int demarsin_reach(const OptionValues& values) {
+  const double reach = std::max(*values.at("normal-neighbors"), *values.at("region-neighbors"));
+  return std::max(demarsin_view, static_cast<int>(reach));
+}
+
+FeatureLabels demarsin_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                              OptionValues& values, Progress& progress) {
+  FeatureLabels labels = detect_demarsin(cloud, neighborhoods, demarsin_options_from(values), progress);
+  values["segment-angle"] = labels.threshold;
+  return labels;
+}
+
+constexpr std::array tensor_voting_options{
+    OptionInfo{"voting-scale", "Distance over which votes fade to 1/e", OptionInfo::Type::Real, 1,
+               largest_voting_scale, false, "spacings", 1.5, ""},
+    OptionInfo{"curvature-weight", "How much sooner votes fade that have to bend", OptionInfo::Type::Real, 0,
+               100, false, "", 1, ""},
+    OptionInfo{"min-curve",
+               "Curve saliency above which a point is sharp; auto = 0.07 to 0.2, where it matters least",
+               OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
+    OptionInfo{"min-junction", "Junction saliency above which a sharp point is a corner",
+               OptionInfo::Type::Real, 0, 1, false, "", 0.12, ""},
+};
+
+int tensor_voting_reach(const OptionValues& values) { return voters_within(*values.at("voting-scale")); }
+
+FeatureLabels tensor_voting_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                                   OptionValues& values, Progress& progress) {
+  FeatureLabels labels =
+      detect_tensor_voting(cloud, neighborhoods, tensor_voting_options_from(values), progress);
+  values["min-curve"] = labels.threshold;
+  return labels;
+}
+
 constexpr std::array table{
     Method{"gauss", "Gauss map clustering: directions of the triangles around a point",
            "Weber, Hahmann, Hagen 2010: Methods for Feature Detection in Point Clouds", MethodInput::Points,
            gauss_options, gauss_reach, gauss_adapt, gauss_is_plain, gauss_detect},
+    Method{"demarsin", "What is left between the regions in which normals turn slowly",
+           "Demarsin, Vanderstraeten, Volodine, Roose 2007: Detection of closed sharp edges in point clouds",
+           MethodInput::Points, demarsin_options, demarsin_reach, adapt_nothing, is_never_plain,
+           demarsin_detect},
+    Method{"tensor_voting", "Tensor voting: every point tells its neighbours where the surface goes on",
+           "Guy, Medioni 1997: Inference of Surfaces, 3D Curves, and Junctions from Sparse, Noisy, 3D Data",
+           MethodInput::Points, tensor_voting_options, tensor_voting_reach, adapt_nothing, is_never_plain,
+           tensor_voting_detect},
 };
 
 [[noreturn]] void refuse(const OptionInfo& option, std::string_view found) {
@@ -188,6 +249,24 @@ GaussOptions gauss_options_from(const OptionValues& values) {
   options.thin = *values.at("thin") != 0;
   options.plain = *values.at("plain") != 0;
   options.keep_spectrum = *values.at("spectrum") != 0;
+  return options;
+}
+
+DemarsinOptions demarsin_options_from(const OptionValues& values) {
+  DemarsinOptions options;
+  options.normal_neighbors = static_cast<int>(*values.at("normal-neighbors"));
+  options.region_neighbors = static_cast<int>(*values.at("region-neighbors"));
+  options.segment_angle_deg = values.at("segment-angle");
+  options.min_patch = static_cast<int>(*values.at("min-patch"));
+  return options;
+}
+
+TensorVotingOptions tensor_voting_options_from(const OptionValues& values) {
+  TensorVotingOptions options;
+  options.voting_scale = *values.at("voting-scale");
+  options.curvature_weight = *values.at("curvature-weight");
+  options.min_curve = values.at("min-curve");
+  options.min_junction = *values.at("min-junction");
   return options;
 }
 
