@@ -14,7 +14,6 @@
 namespace keenline {
 namespace {
 
-constexpr std::size_t neighbors_that_support = 16;
 constexpr std::size_t block_size = 4096;
 
 struct Steps {
@@ -28,9 +27,6 @@ struct Steps {
     clusters.push_back(c);
   }
 };
-
-/// A peak stands by itself.
-bool needs_support(Kind kind) { return (is_feature(kind) && kind != Kind::Peak) || kind == Kind::Border; }
 
 /// Everything that the filter looks at.
 struct Cloud {
@@ -148,10 +144,11 @@ LabelSpectrum without_isolated(const LabelSpectrum& spectrum, const Neighborhood
   result.from.reserve(result.offsets[count]);
   result.kind.reserve(result.offsets[count]);
   result.clusters.reserve(result.offsets[count]);
-  for (const Steps& part : parts) {
+  for (Steps& part : parts) {
     result.from.insert(result.from.end(), part.from.begin(), part.from.end());
     result.kind.insert(result.kind.end(), part.kind.begin(), part.kind.end());
     result.clusters.insert(result.clusters.end(), part.clusters.begin(), part.clusters.end());
+    part = {};  // no two copies of everything at once
   }
   return result;
 }
