@@ -11,7 +11,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/synth/synth.h"
 
 #include "support/expect_error.h"
@@ -32,7 +32,7 @@ SynthCloud shape(const std::string& name, std::uint64_t points = 12000, double n
 }
 
 FeatureLabels detect(const PointCloud& cloud, const DemarsinOptions& options = {}) {
-  return detect_demarsin(cloud, find_neighborhoods(cloud, demarsin_view), options);
+  return detect_demarsin(cloud, NeighborSearch(cloud.positions), options);
 }
 
 DemarsinOptions at_angle(double segment_angle_deg) {
@@ -162,14 +162,13 @@ TEST(Demarsin, RefusesOptionsOutOfRange) {
   refuses(at_angle(0.9), "--segment-angle");
   refuses(at_angle(std::numeric_limits<double>::quiet_NaN()), "--segment-angle");
   refuses({.min_patch = 0}, "--min-patch");
-  expect_error<InvalidArgument>([&] { (void)detect_demarsin(cloud, Neighborhoods{}); }, "100");
 }
 
 TEST(Demarsin, CanBeCancelled) {
   const PointCloud cloud = shape("cube", 500).cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, demarsin_view);
+  const NeighborSearch search(cloud.positions);
   test::CancelledProgress progress;
-  EXPECT_THROW((void)detect_demarsin(cloud, neighborhoods, {}, progress), Cancelled);
+  EXPECT_THROW((void)detect_demarsin(cloud, search, {}, progress), Cancelled);
 }
 
 }  // namespace

@@ -169,7 +169,8 @@ TEST(Registry, DemarsinOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(method.reach(values), 60);
   OptionValues chosen = resolve_options(method, {});
   EXPECT_EQ(method.reach(chosen), demarsin_view);
-  (void)method.detect(PointCloud{}, Neighborhoods{}, chosen, no_progress());
+  const PointCloud none;
+  (void)method.detect(none, NeighborSearch(none.positions), chosen, no_progress());
   EXPECT_EQ(chosen.at("segment-angle"), 5);
 }
 
@@ -190,7 +191,8 @@ TEST(Registry, TensorVotingOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(given.min_junction, 0.5);
   EXPECT_EQ(method.reach(values), voters_within(2));
   OptionValues chosen = resolve_options(method, {});
-  (void)method.detect(PointCloud{}, Neighborhoods{}, chosen, no_progress());
+  const PointCloud none;
+  (void)method.detect(none, NeighborSearch(none.positions), chosen, no_progress());
   EXPECT_TRUE(chosen.at("min-curve").has_value());
 }
 

@@ -13,6 +13,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/synth/synth.h"
 #include "keenline/vectors.h"
@@ -31,8 +32,7 @@ SynthCloud shape(const std::string& name, std::uint64_t points = 12000, double n
 }
 
 Segments segments_of(const PointCloud& cloud, const SegmentOptions& options = {}) {
-  const int neighbors = std::max(options.normal_neighbors, options.region_neighbors);
-  return segment_by_normals(cloud.positions, find_neighborhoods(cloud, neighbors), options);
+  return segment_by_normals(cloud.positions, NeighborSearch(cloud.positions), options);
 }
 
 /// Segments of at least so many points.
@@ -83,7 +83,7 @@ TEST(Segments, LeakOverObtuseEdgesWhenTheAngleIsTooLarge) {
 TEST(Segments, TheirNeighborsAreWithinTheAngle) {
   const PointCloud cloud = shape("fandisk", 3000).cloud;
   const Neighborhoods neighborhoods = find_neighborhoods(cloud, 10);
-  const Segments segments = segment_by_normals(cloud.positions, neighborhoods, {.angle_deg = 5});
+  const Segments segments = segments_of(cloud, {.angle_deg = 5});
   std::vector<std::size_t> interior(segments.interior.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     double bend = 0;

@@ -12,9 +12,8 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "keenline/cloud.h"
-#include "keenline/detect/voters.h"
 #include "keenline/errors.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/synth/synth.h"
 
 #include "support/expect_error.h"
@@ -35,7 +34,7 @@ SynthCloud shape(const std::string& name, std::uint64_t points = 6000, double no
 }
 
 FeatureLabels detect(const PointCloud& cloud, const TensorVotingOptions& options = {}) {
-  return detect_tensor_voting(cloud, find_neighborhoods(cloud, voters_within(options.voting_scale)), options);
+  return detect_tensor_voting(cloud, NeighborSearch(cloud.positions), options);
 }
 
 std::size_t count(const FeatureLabels& labels, Kind kind) {
@@ -129,18 +128,18 @@ TEST(TensorVoting, FlatIsWhereTheVotedNormalsAgree) {
 
 TEST(TensorVoting, ALowerThresholdFindsMore) {
   const PointCloud cloud = shape("cube").cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, voters_within(1.5));
+  const NeighborSearch search(cloud.positions);
   std::size_t before = 0;
   for (const double min_curve : {0.5, 0.15, 0.05}) {
     TensorVotingOptions options;
     options.min_curve = min_curve;
-    const FeatureLabels labels = detect_tensor_voting(cloud, neighborhoods, options);
+    const FeatureLabels labels = detect_tensor_voting(cloud, search, options);
     EXPECT_EQ(labels.threshold, min_curve);
     const std::size_t found = count(labels, Kind::Edge) + count(labels, Kind::Corner);
     EXPECT_GT(found, before);
     before = found;
     options.min_junction = 1;
-    EXPECT_EQ(count(detect_tensor_voting(cloud, neighborhoods, options), Kind::Corner), 0U);
+    EXPECT_EQ(count(detect_tensor_voting(cloud, search, options), Kind::Corner), 0U);
   }
 }
 
@@ -205,23 +204,22 @@ TEST(TensorVoting, DegenerateCloudsAreAnswered) {
 
 TEST(TensorVoting, RefusesOptionsOutOfRange) {
   const PointCloud cloud = shape("cube", 100).cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 41);
+  const NeighborSearch search(cloud.positions);
   const auto refuses = [&](const TensorVotingOptions& options, const char* name) {
-    expect_error<InvalidArgument>([&] { (void)detect_tensor_voting(cloud, neighborhoods, options); }, name);
+    expect_error<InvalidArgument>([&] { (void)detect_tensor_voting(cloud, search, options); }, name);
   };
   refuses({.voting_scale = 0.9}, "--voting-scale");
   refuses({.voting_scale = std::numeric_limits<double>::quiet_NaN()}, "--voting-scale");
   refuses({.curvature_weight = -1}, "--curvature-weight");
   refuses({.min_curve = 1.5}, "--min-curve");
   refuses({.min_junction = -0.1}, "--min-junction");
-  expect_error<InvalidArgument>([&] { (void)detect_tensor_voting(cloud, Neighborhoods{}); }, "100");
 }
 
 TEST(TensorVoting, CanBeCancelled) {
   const PointCloud cloud = shape("cube", 500).cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 41);
+  const NeighborSearch search(cloud.positions);
   test::CancelledProgress progress;
-  EXPECT_THROW((void)detect_tensor_voting(cloud, neighborhoods, {}, progress), Cancelled);
+  EXPECT_THROW((void)detect_tensor_voting(cloud, search, {}, progress), Cancelled);
 }
 
 }  // namespace

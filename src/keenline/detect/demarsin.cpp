@@ -16,14 +16,14 @@
 #include "keenline/errors.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/memory.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
-void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                    const DemarsinOptions& options) {
+void require_usable(const DemarsinOptions& options) {
   const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
     if (!ok) throw InvalidArgument(fmt::format("--{}: found {}, expected {}", name, found, expected));
   };
@@ -34,8 +34,6 @@ void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
     require(*options.segment_angle_deg >= 1 && *options.segment_angle_deg <= 45, "segment-angle",
             *options.segment_angle_deg, "1 to 45 degrees");
   require(options.min_patch >= 1, "min-patch", options.min_patch, "1 or more");
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
 }
 
 /// What patches a point sees around it.
@@ -84,24 +82,23 @@ class View {
   std::vector<Point> directions_;  // a normal of each that is seen, the nearest's first
 };
 
-Kind kind_of(const Segments& segments, View& view, std::uint32_t point,
-             std::span<const std::uint32_t> neighbors) {
+Kind kind_of(const Segments& segments, View& view, std::uint32_t point, const NeighborSearch& search) {
   if (segments.normals[point] == Point{0, 0, 0}) return Kind::Undecided;
-  if (!view.is_in_patch(point)) return view.kind_seen(neighbors);
+  if (!view.is_in_patch(point)) return view.kind_seen(search.nearest(point, demarsin_view));
   const bool is_flat = static_cast<double>(segments.bend_deg[point]) <= 0.5 * segments.angle_deg;
   return is_flat ? Kind::Flat : Kind::Curved;
 }
 
 }  // namespace
 
-FeatureLabels detect_demarsin(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+FeatureLabels detect_demarsin(const PointCloud& cloud, const NeighborSearch& search,
                               const DemarsinOptions& options, Progress& progress) {
-  require_usable(cloud, neighborhoods, options);
+  require_usable(options);
   constexpr std::uint64_t bytes_per_point = sizeof(Point) + sizeof(float) + 3 * sizeof(std::uint32_t);
   require_memory(cloud.size() * bytes_per_point, "segmentation by normals");
-  progress.begin("demarsin", cloud.size());
+  progress.begin("demarsin", 2 * cloud.size());
   Segments segments = segment_by_normals(
-      cloud.positions, neighborhoods,
+      cloud.positions, search,
       {options.normal_neighbors, options.region_neighbors, options.segment_angle_deg}, progress);
   FeatureLabels labels;
   labels.kind.resize(cloud.size(), Kind::Undecided);
@@ -109,12 +106,8 @@ FeatureLabels detect_demarsin(const PointCloud& cloud, const Neighborhoods& neig
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       progress.check();
                       View view(segments, options.min_patch);
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        const auto all = neighborhoods.of(i);
-                        const auto seen =
-                            all.first(std::min(all.size(), static_cast<std::size_t>(demarsin_view)));
-                        labels.kind[i] = kind_of(segments, view, static_cast<std::uint32_t>(i), seen);
-                      }
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        labels.kind[i] = kind_of(segments, view, static_cast<std::uint32_t>(i), search);
                       progress.advance(range.size());
                     });
   for (std::size_t i = 0; i < cloud.size(); ++i)

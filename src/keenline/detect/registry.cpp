@@ -115,9 +115,9 @@ int demarsin_reach(const OptionValues& values) {
   return std::max(demarsin_view, static_cast<int>(reach));
 }
 
-FeatureLabels demarsin_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                              OptionValues& values, Progress& progress) {
-  FeatureLabels labels = detect_demarsin(cloud, neighborhoods, demarsin_options_from(values), progress);
+FeatureLabels demarsin_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
+                              Progress& progress) {
+  FeatureLabels labels = detect_demarsin(cloud, search, demarsin_options_from(values), progress);
   values["segment-angle"] = labels.threshold;
   return labels;
 }
@@ -136,10 +136,9 @@ constexpr std::array tensor_voting_options{
 
 int tensor_voting_reach(const OptionValues& values) { return voters_within(*values.at("voting-scale")); }
 
-FeatureLabels tensor_voting_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+FeatureLabels tensor_voting_detect(const PointCloud& cloud, const NeighborSearch& search,
                                    OptionValues& values, Progress& progress) {
-  FeatureLabels labels =
-      detect_tensor_voting(cloud, neighborhoods, tensor_voting_options_from(values), progress);
+  FeatureLabels labels = detect_tensor_voting(cloud, search, tensor_voting_options_from(values), progress);
   values["min-curve"] = labels.threshold;
   return labels;
 }

@@ -11,6 +11,7 @@
 #include "keenline/kernels/portable_math.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/vectors.h"
 
@@ -22,12 +23,13 @@ constexpr std::uint32_t no_segment = std::numeric_limits<std::uint32_t>::max();
 
 class Segmentation {
  public:
-  Segmentation(const std::vector<Point>& positions, const Neighborhoods& neighborhoods,
+  Segmentation(const std::vector<Point>& positions, const NeighborSearch& search,
                const SegmentOptions& options, Progress& progress)
-      : positions_(positions), neighborhoods_(neighborhoods), options_(options), progress_(progress) {}
+      : positions_(positions), search_(search), options_(options), progress_(progress) {}
 
   Segments run() {
     find_normals();
+    neighborhoods_ = search_.all(options_.region_neighbors);
     measure_bends();
     result_.angle_deg = options_.angle_deg.value_or(usual_angle_deg());
     grow_regions();
@@ -36,40 +38,32 @@ class Segmentation {
   }
 
  private:
-  template <typename Visit>
-  void for_each_block(const Visit& visit) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions_.size(), 1024),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        progress_.check();
-                        visit(range.begin(), range.end());
-                      });
-  }
-
-  [[nodiscard]] std::span<const std::uint32_t> nearest(std::size_t point, int count) const {
-    const auto neighbors = neighborhoods_.of(point);
-    return neighbors.first(std::min(neighbors.size(), static_cast<std::size_t>(count)));
-  }
-
   void find_normals() {
-    result_.normals.resize(positions_.size());
-    for_each_block([&](std::size_t begin, std::size_t end) {
-      LocalOffsets workspace;
-      for (std::size_t i = begin; i < end; ++i)
-        result_.normals[i] = plane_normal(positions_, i, nearest(i, options_.normal_neighbors), workspace);
-    });
+    result_.normals.assign(positions_.size(), no_normal);
+    search_.for_each_block(
+        options_.normal_neighbors,
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          LocalOffsets workspace;
+          for (std::size_t i = 0; i < points.size(); ++i)
+            result_.normals[points[i]] = plane_normal(positions_, points[i], neighborhoods.of(i), workspace);
+        },
+        progress_);
   }
 
   void measure_bends() {
     result_.bend_deg.resize(positions_.size());
-    for_each_block([&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) result_.bend_deg[i] = bend_deg(i);
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions_.size(), 1024),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        progress_.check();
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          result_.bend_deg[i] = bend_deg(i);
+                      });
   }
 
   [[nodiscard]] float bend_deg(std::size_t point) const {
     const Point& normal = result_.normals[point];
     double largest = 0;
-    for (const std::uint32_t neighbor : nearest(point, options_.region_neighbors)) {
+    for (const std::uint32_t neighbor : neighborhoods_.of(point)) {
       const Point& other = result_.normals[neighbor];
       // Exact for small angles, where the cosine tells nothing.
       const double angle = kernels::angle_of(length(cross(normal, other)), std::abs(dot(normal, other)));
@@ -104,7 +98,7 @@ class Segmentation {
       region.assign(1, seed);
       for (std::size_t next = 0; next < region.size(); ++next) {
         const Point& normal = result_.normals[region[next]];
-        for (const std::uint32_t neighbor : nearest(region[next], options_.region_neighbors)) {
+        for (const std::uint32_t neighbor : neighborhoods_.of(region[next])) {
           // The cosine with a missing normal is 0.
           const bool continues = std::abs(dot(normal, result_.normals[neighbor])) >= smallest_cosine;
           if (segment[neighbor] != no_segment || !continues) continue;
@@ -120,7 +114,7 @@ class Segmentation {
   void count_interiors() {
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       const std::uint32_t own = result_.segment[i];
-      const auto neighbors = nearest(i, options_.region_neighbors);
+      const auto neighbors = neighborhoods_.of(i);
       const bool inside =
           !neighbors.empty() && std::all_of(neighbors.begin(), neighbors.end(), [&](std::uint32_t neighbor) {
             return result_.segment[neighbor] == own;
@@ -130,9 +124,10 @@ class Segmentation {
   }
 
   const std::vector<Point>& positions_;
-  const Neighborhoods& neighborhoods_;
+  const NeighborSearch& search_;
   const SegmentOptions& options_;
   Progress& progress_;
+  Neighborhoods neighborhoods_;  // that regions grow to
   Segments result_;
 };
 
@@ -146,9 +141,9 @@ Point plane_normal(const std::vector<Point>& positions, std::size_t point,
   return axes.values[1] > thinnest * axes.values[0] ? axes.vectors[2] : no_normal;
 }
 
-Segments segment_by_normals(const std::vector<Point>& positions, const Neighborhoods& neighborhoods,
+Segments segment_by_normals(const std::vector<Point>& positions, const NeighborSearch& search,
                             const SegmentOptions& options, Progress& progress) {
-  return Segmentation(positions, neighborhoods, options, progress).run();
+  return Segmentation(positions, search, options, progress).run();
 }
 
 }  // namespace keenline

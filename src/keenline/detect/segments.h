@@ -12,7 +12,7 @@
 namespace keenline {
 
 class LocalOffsets;
-struct Neighborhoods;
+class NeighborSearch;
 
 /// The normal of the plane of a point and its neighbours, up to its sign: their axis of least variance (Hoppe
 /// et al. 1992, "Surface reconstruction from unorganized points"). {0, 0, 0} where there are less than 3
@@ -40,9 +40,9 @@ struct Segments {
 /// First-order segmentation: regions grow from the flattest point that is left, breadth first, always from
 /// neighbour to neighbour, so that curved faces stay whole. A point without a normal is a segment of its own.
 /// Source: Demarsin, Vanderstraeten, Volodine, Roose 2007. Threads: any number, same result. Cost: O(n k).
-/// \pre neighborhoods.size() == positions.size(), the options are in range \throw Cancelled
-[[nodiscard]] Segments segment_by_normals(const std::vector<Point>& positions,
-                                          const Neighborhoods& neighborhoods, const SegmentOptions& options,
-                                          Progress& progress = no_progress());
+/// Advances `progress` by the points; the caller began the stage.
+/// \pre the search is that of the positions, the options are in range \throw OutOfMemory; Cancelled
+[[nodiscard]] Segments segment_by_normals(const std::vector<Point>& positions, const NeighborSearch& search,
+                                          const SegmentOptions& options, Progress& progress = no_progress());
 
 }  // namespace keenline

@@ -1,14 +1,13 @@
 #include "keenline/detect/tensor_voting.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/threshold.h"
@@ -16,13 +15,12 @@
 #include "keenline/errors.h"
 #include "keenline/kernels/tensor_votes.h"
 #include "keenline/memory.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 
 namespace keenline {
 namespace {
 
-void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                    const TensorVotingOptions& options) {
+void require_usable(const TensorVotingOptions& options) {
   const auto require = [](double value, double least, double most, std::string_view name) {
     if (!(value >= least && value <= most))
       throw InvalidArgument(fmt::format("--{}: found {}, expected {} to {}", name, value, least, most));
@@ -31,8 +29,6 @@ void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
   require(options.curvature_weight, 0, 100, "curvature-weight");
   if (options.min_curve) require(*options.min_curve, 0, 1, "min-curve");
   require(options.min_junction, 0, 1, "min-junction");
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
 }
 
 /// What was voted at a point.
@@ -43,13 +39,9 @@ struct Election {
 
 class TensorVoting {
  public:
-  TensorVoting(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-               const TensorVotingOptions& options, Progress& progress)
-      : cloud_(cloud),
-        neighborhoods_(neighborhoods),
-        options_(options),
-        progress_(progress),
-        count_(static_cast<std::size_t>(voters_within(options.voting_scale))) {}
+  TensorVoting(const PointCloud& cloud, const NeighborSearch& search, const TensorVotingOptions& options,
+               Progress& progress)
+      : cloud_(cloud), search_(search), options_(options), progress_(progress) {}
 
   std::vector<Election> run() {
     std::vector<Stick> sticks(cloud_.size());
@@ -65,18 +57,15 @@ class TensorVoting {
   /// Calls visit(point, voters) for all points that have voters.
   template <typename Visit>
   void for_each_point(const Visit& visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud_.size(), 256),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        Voters& voters = voters_.local();
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          progress_.check();
-                          const auto neighbors = neighborhoods_.of(i);
-                          const auto nearest = neighbors.first(std::min(neighbors.size(), count_));
-                          if (voters.gather(cloud_.positions, i, nearest, options_.voting_scale))
-                            visit(i, voters);
-                        }
-                        progress_.advance(range.size());
-                      });
+    search_.for_each_block(
+        voters_within(options_.voting_scale),
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          Voters& voters = voters_.local();
+          for (std::size_t i = 0; i < points.size(); ++i)
+            if (voters.gather(cloud_.positions, points[i], neighborhoods.of(i), options_.voting_scale))
+              visit(points[i], voters);
+        },
+        progress_);
   }
 
   static Election elect(const kernels::Symmetric3& tensor) {
@@ -84,10 +73,9 @@ class TensorVoting {
   }
 
   const PointCloud& cloud_;
-  const Neighborhoods& neighborhoods_;
+  const NeighborSearch& search_;
   const TensorVotingOptions& options_;
   Progress& progress_;
-  std::size_t count_;
   tbb::enumerable_thread_specific<Voters> voters_;
 };
 
@@ -113,12 +101,12 @@ Kind kind_of(const Election& election, double fewest, double min_curve, double m
 
 }  // namespace
 
-FeatureLabels detect_tensor_voting(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+FeatureLabels detect_tensor_voting(const PointCloud& cloud, const NeighborSearch& search,
                                    const TensorVotingOptions& options, Progress& progress) {
-  require_usable(cloud, neighborhoods, options);
+  require_usable(options);
   require_memory(cloud.size() * (sizeof(Stick) + sizeof(Election)), "tensor voting");
   progress.begin("tensor_voting", 2 * cloud.size());
-  const std::vector<Election> elections = TensorVoting(cloud, neighborhoods, options, progress).run();
+  const std::vector<Election> elections = TensorVoting(cloud, search, options, progress).run();
   FeatureLabels labels;
   labels.score.reserve(cloud.size());
   for (const Election& election : elections)
