@@ -121,8 +121,10 @@ FeatureGraph trace_demarsin(const PointCloud& cloud, const NeighborSearch& searc
   LineNet net =
       spanning_forest(clusters.centroids, extended_graph(candidates, clusters, options.extra_reach));
   net.prune_branches_below(options.min_branch);
-  net.drop_parts_below(options.min_branch);
+  constexpr double shortest_piece = 2;  // less points nowhere
+  net.drop_parts_below(std::min(shortest_piece, options.min_branch));
   close_ends(net, options.close_reach, options.close_ratio, progress);
+  net.drop_parts_below(options.min_branch);
   clean_up(net, options);
   smooth(net, options.smooth_rounds);
   return graph_of(net, candidates, clusters.sizes);
