@@ -1,4 +1,4 @@
-#include "keenline/lines/rim.h"
+#include "keenline/lines/rim_tracker.h"
 
 #include <cmath>
 #include <optional>
