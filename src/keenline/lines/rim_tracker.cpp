@@ -13,7 +13,7 @@ namespace {
 
 // Lengths in spacings of the points around.
 constexpr int window_size = 12;  // a border point every spacing: six to each side
-constexpr int surface_neighbors = 16;
+constexpr int surface_neighbors = 24;
 constexpr double reach = 5;  // of what counts
 constexpr int least_points = 4;
 constexpr double largest_shift = 1;  // from where the rim was expected
@@ -34,9 +34,11 @@ std::vector<Point> positions_of(const std::vector<std::uint32_t>& points, const 
   return positions;
 }
 
+/// The surface around a border point.
 struct Surface {
+  std::vector<Point> offsets;  // of its neighbours, in spacings of the points around
   Point normal{};
-  double spacing = 0;
+  double spacing = 0;  // in the unit of the cloud
 };
 
 std::optional<Surface> surface_at(std::uint32_t point, const PointCloud& cloud,
@@ -45,9 +47,28 @@ std::optional<Surface> surface_at(std::uint32_t point, const PointCloud& cloud,
   LocalOffsets local;
   if (neighbors.size() < surface_neighbors || !local.gather(cloud.positions, point, neighbors))
     return std::nullopt;
-  const kernels::Eigen3 eigen = kernels::eigen_decomposition(scatter_of(local.offsets()));
-  const double radius = length(local.offsets().back()) * local.unit();
-  return Surface{eigen.vectors[2], radius * std::sqrt(kernels::pi / (surface_neighbors + 0.5))};
+  Surface surface;
+  surface.normal = kernels::eigen_decomposition(scatter_of(local.offsets())).vectors[2];
+  const double spacing = length(local.offsets().back()) * std::sqrt(kernels::pi / (surface_neighbors + 0.5));
+  for (const Point& offset : local.offsets()) surface.offsets.push_back(scaled(1 / spacing, offset));
+  surface.spacing = spacing * local.unit();
+  return surface;
+}
+
+/// Does the surface end at the line through `foot`, given relative to its middle? What lies past it, and
+/// what on a line of points, is not its rim.
+bool ends_at(const Surface& surface, const Point& foot, const Point& outward) {
+  constexpr double clear = 0.75;  // from the rim; noise and bends carry points past it
+  constexpr int most_past = 1;
+  constexpr int fewest_inside = 6;
+  int positive = 0;
+  int negative = 0;
+  for (const Point& offset : surface.offsets) {
+    const double v = dot(outward, difference(offset, foot));
+    positive += v > clear ? 1 : 0;
+    negative += v < -clear ? 1 : 0;
+  }
+  return std::min(positive, negative) <= most_past && std::max(positive, negative) >= fewest_inside;
 }
 
 }  // namespace
@@ -117,6 +138,9 @@ std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& exp
   foot.normals[1] = unit(outward);
   foot.normals[0] = cross(foot.normals[1], foot.tangent);
   foot.scale = scale;
+  const Point from_middle =
+      scaled(1 / scale, difference(foot.position, frame_.local(positions_[border_point])));
+  if (!ends_at(*surface, from_middle, foot.normals[1])) return std::nullopt;
   foot.quality = 1 - eigen.values[1] / eigen.values[0];
   foot.point = border_point;
   foot.is_backed = true;

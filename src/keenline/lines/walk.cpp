@@ -13,8 +13,9 @@ namespace keenline {
 namespace {
 
 // Lengths in spacings of the points around.
-constexpr double covered = 1;           // a seed this close to a path is on it
-constexpr double same_line = 0.7;       // a path this close to another, in the same direction, has met it
+constexpr double covered = 1;  // a seed this close to a path is on it
+constexpr double covered_parallel = 2;
+constexpr double same_line = 1.2;       // a path this close to another, in the same direction, has met it
 constexpr double same_direction = 0.8;  // cosine of 37 degrees
 constexpr double largest_turn = 0.82;   // cosine of 35 degrees, from one foot to the next
 constexpr int most_missed = 2;          // steps that may show no line before it has ended
@@ -64,8 +65,9 @@ void LineWalker::walk_from(const Foot& seed) {
 
 bool LineWalker::is_covered(const Foot& seed) const {
   bool found = false;
-  grid_.near(seed.position, 2 * seed.scale, [&](const FootGrid::Entry& entry) {
-    found = found || is_beside(seed.position, entry.foot, covered);
+  grid_.near(seed.position, 3 * seed.scale, [&](const FootGrid::Entry& entry) {
+    const bool is_parallel = std::abs(dot(entry.foot.tangent, seed.tangent)) > same_direction;
+    found = found || is_beside(seed.position, entry.foot, is_parallel ? covered_parallel : covered);
   });
   return found;
 }
