@@ -59,7 +59,7 @@ struct LineScene {
   explicit LineScene(const SynthOptions& options)
       : synth(synthesize(options)), search(synth.cloud.positions) {
     truth = true_lines(synth);
-    spacing = estimate_spacing(synth.cloud, search.all(16));
+    spacing = estimate_spacing(synth.cloud, search);
   }
 
   SynthCloud synth;
