@@ -124,11 +124,15 @@ double squared_distance(const Point& position, const Box& box) {
   return squares;
 }
 
+constexpr std::uint32_t nowhere = 0xFFFF'FFFFU;
+
 /// The nearest points to a position, found by opening the nearest node again and again.
 class Nearest {
  public:
-  Nearest(const BoxTree& tree, const Point& position, std::size_t count)
-      : tree_(tree), position_(tree.scaled(position)), count_(count) {}
+  /// \param position as BoxTree::position_of() has it \param without a location that does not count, or
+  /// nowhere
+  Nearest(const BoxTree& tree, const Point& position, int count, std::uint32_t without)
+      : tree_(tree), position_(position), count_(static_cast<std::size_t>(count)), without_(without) {}
 
   std::vector<std::uint32_t> find() {
     if (!tree_.nodes().empty()) await(0);
@@ -164,6 +168,7 @@ class Nearest {
 
   void visit(std::uint32_t leaf) {
     for (std::uint32_t location = tree_.nodes()[leaf].begin; location < tree_.end_of(leaf); ++location) {
+      if (location == without_) continue;
       const Point& there = tree_.position_of(tree_.first_point_at(location));
       const double distance = squared_distance(position_, {there, there});
       for (const std::uint32_t point : tree_.points_at(location))
@@ -185,6 +190,7 @@ class Nearest {
   const BoxTree& tree_;
   Point position_;
   std::size_t count_;
+  std::uint32_t without_;
   std::vector<Ranked> open_;   // nodes, the nearest in front
   std::vector<Ranked> found_;  // points, the farthest in front
 };
@@ -205,21 +211,15 @@ std::vector<std::uint32_t> NeighborSearch::nearest(std::uint32_t point, int coun
   require_neighbor_count(count);
   if (point >= size_)
     throw InvalidArgument(fmt::format("point: found {}, expected 0 to {}", point, size_ - 1));
-  std::vector<std::uint32_t> neighbors;
-  const auto capacity = static_cast<std::size_t>(count);
   const std::optional<std::uint32_t> location = tree_->location_of(point);
-  if (!location) return neighbors;
-  const Point& position = tree_->position_of(point);
-  Surroundings surroundings(*tree_, capacity);
-  surroundings.enter({position, position}, *location);
-  append_points(*tree_, surroundings.nearest(position, *location), capacity, neighbors);
-  return neighbors;
+  if (!location) return {};
+  return Nearest(*tree_, tree_->position_of(point), count, *location).find();
 }
 
 std::vector<std::uint32_t> NeighborSearch::nearest_to(const Point& position, int count) const {
   if (count < 1) throw InvalidArgument(fmt::format("nearest points: found {}, expected at least 1", count));
   if (!is_finite(position)) return {};
-  return Nearest(*tree_, position, static_cast<std::size_t>(count)).find();
+  return Nearest(*tree_, tree_->scaled(position), count, nowhere).find();
 }
 
 void NeighborSearch::for_each_block(int count, const Visit& visit, Progress& progress) const {
