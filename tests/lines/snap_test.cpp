@@ -54,6 +54,20 @@ TEST(Snap, NoiseAndBentSidesLeaveATenthOfASpacing) {
   }
 }
 
+TEST(Snap, RoundedEdgesYieldTheOnesThatWereDrawn) {
+  // The radius is two spacings; what a tracer sees is inside the edge.
+  const LineScene scene(shape_options("rounded-cube", 12000, 0.05));
+  FeatureGraph rough = roughened(scene.truth, scene.spacing);
+  const auto inward = [&](const Point& p) { return sum(p, scaled(-0.8 * scene.spacing, unit(p))); };
+  for (GraphCorner& corner : rough.corners) corner.position = inward(corner.position);
+  for (Polyline& line : rough.polylines)
+    for (Point& p : line.vertices) p = inward(p);
+  ASSERT_GT(compared(scene, rough).chamfer(), 0.6 * scene.spacing);
+  const GraphComparison comparison = compared(scene, snapped(scene, rough));
+  EXPECT_LT(comparison.hausdorff(), 0.3 * scene.spacing);
+  EXPECT_LT(comparison.corners.largest, 0.3 * scene.spacing);
+}
+
 TEST(Snap, CornersAndTheEndsOfTheirLinesAreOnePlace) {
   const LineScene scene(shape_options("icosahedron", 6000, 0.05));
   const FeatureGraph graph = snapped(scene, roughened(scene.truth, scene.spacing));

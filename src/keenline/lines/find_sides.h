@@ -25,19 +25,19 @@ struct Side {
   std::size_t support = 0;  ///< number of those points
 };
 
-/// What meets in a line near one place, as seen from outside and looking along the line. A cloud does not say
-/// what is outside: a line is taken for convex, the body in the smaller of the two angles.
-/// Of a border: `left` is the surface; `right` stands upright on its rim, and is no surface of the body.
+/// What meets in a line near one place, as seen from outside and looking along the line. A cloud does not
+/// say what is outside: a line is taken for convex, the body in the smaller of the two angles. Of a border:
+/// `left` is the surface; `right` stands upright on its rim, and is no surface of the body.
 struct LineSides {
   Side left;
   Side right;
 };
 
-/// The two surfaces that meet near `position` in a line of this direction (a unit vector). Points between rim
-/// and reach vote for half planes that begin at the line and follow it, the best two are refined robustly,
-/// and either becomes a quadric where that explains its points significantly better (0.1 %). Nothing where
-/// fewer than two such surfaces with at least 8 points each are found, where their points are on average more
-/// than 0.35 spacings off, or where they meet at less than 7 degrees.
+/// The two surfaces that meet near `position` in a line of this direction (a unit vector). Points between
+/// rim and reach vote for half planes that begin at the line and follow it, the best two are refined
+/// robustly, and either becomes a quadric where that explains its points significantly better (0.1 %).
+/// Nothing where fewer than two such surfaces with at least 8 points each are found, where their points are
+/// on average more than 0.35 spacings off, or where they meet at less than 7 degrees.
 /// Threads: may be called from many at once. Cost: about 0.2 ms.
 /// \pre spacing > 0
 [[nodiscard]] std::optional<LineSides> find_sides(const PointCloud& cloud, const NeighborSearch& search,

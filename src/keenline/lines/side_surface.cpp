@@ -1,9 +1,10 @@
 #include "keenline/lines/side_surface.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
+#include "keenline/lines/band_least_squares.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -12,31 +13,6 @@ namespace {
 using Terms = std::array<double, 6>;
 
 Terms terms_at(double x, double y) { return {1, x, y, y * y, x * y, x * x}; }
-
-/// Solves a symmetric system by Cholesky's decomposition; false unless it is positive definite beyond
-/// rounding.
-bool solve(std::array<Terms, 6>& a, Terms& b, std::size_t size) {
-  double largest = 0;
-  for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, a[i][i]);
-  for (std::size_t j = 0; j < size; ++j) {
-    for (std::size_t k = 0; k < j; ++k) a[j][j] -= a[j][k] * a[j][k];
-    if (!(a[j][j] > 1e-10 * largest)) return false;
-    a[j][j] = std::sqrt(a[j][j]);
-    for (std::size_t i = j + 1; i < size; ++i) {
-      for (std::size_t k = 0; k < j; ++k) a[i][j] -= a[i][k] * a[j][k];
-      a[i][j] /= a[j][j];
-    }
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (std::size_t i = size; i-- > 0;) {
-    for (std::size_t k = i + 1; k < size; ++k) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -64,21 +40,18 @@ double SideSurface::distance(const Point& offset) const { return above(offset) *
 std::optional<SideSurface> fit_surface(const SideSurface& frame, std::span<const Point> offsets,
                                        std::span<const double> weights, SurfaceTerms terms) {
   const auto size = static_cast<std::size_t>(terms);
-  std::array<Terms, 6> squares{};
-  Terms right{};
+  BandLeastSquares equations(size, size);
   for (std::size_t p = 0; p < offsets.size(); ++p) {
     if (weights[p] == 0) continue;
     const Terms monomials = terms_at(dot(offsets[p], frame.x), dot(offsets[p], frame.y));
-    const double z = dot(offsets[p], frame.z);
-    for (std::size_t i = 0; i < size; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) squares[i][j] += weights[p] * monomials[i] * monomials[j];
-      right[i] += weights[p] * monomials[i] * z;
-    }
+    const Point height{0, 0, dot(offsets[p], frame.z)};
+    equations.add(0, std::span(monomials).first(size), height, weights[p]);
   }
-  if (!solve(squares, right, size)) return std::nullopt;
+  const std::optional<std::vector<Point>> factors = std::move(equations).solve();
+  if (!factors) return std::nullopt;
   SideSurface surface = frame;
   surface.height.fill(0);
-  std::copy_n(right.begin(), size, surface.height.begin());
+  for (std::size_t i = 0; i < size; ++i) surface.height[i] = (*factors)[i][2];
   return surface;
 }
 

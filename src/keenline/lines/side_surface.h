@@ -9,8 +9,8 @@
 
 namespace keenline {
 
-/// A smooth surface near one place: its height over a plane is a polynomial. All lengths are
-/// counted in spacings from the origin, so that neither the scale nor the place of the cloud costs digits.
+/// A smooth surface near one place: its height over a plane is a polynomial. All lengths are counted in
+/// spacings from the origin, so that neither the scale nor the place of the cloud costs digits.
 struct SideSurface {
   Point origin{};  ///< in the cloud's own coordinates
   double spacing = 1;
@@ -32,8 +32,9 @@ struct SideSurface {
 /// Which of the factors may differ from 0: so many from the first.
 enum class SurfaceTerms : std::uint8_t { Plane = 3, BentAlongY = 4, Quadric = 6 };
 
-/// The polynomial over the plane of `frame` that fits best: least weighted sum of squared heights. None where
-/// the points do not determine it. \pre as many weights as offsets
+/// The polynomial over the plane of `frame` that fits best: least weighted sum of squared heights. None
+/// where the points do not determine it.
+/// \pre as many weights as offsets
 [[nodiscard]] std::optional<SideSurface> fit_surface(const SideSurface& frame, std::span<const Point> offsets,
                                                      std::span<const double> weights, SurfaceTerms terms);
 
