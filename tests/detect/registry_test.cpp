@@ -6,6 +6,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/pauly.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighborhoods.h"
 
@@ -145,6 +146,30 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_FALSE(given.thin);
   EXPECT_TRUE(given.plain);
   EXPECT_TRUE(given.keep_spectrum);
+}
+
+TEST(Registry, PaulyOptionsAreThoseOfTheMethod) {
+  const Method& pauly = find_method("pauly");
+  OptionValues values = resolve_options(pauly, {});
+  EXPECT_EQ(pauly.reach(values), 32);
+  pauly.adapt(values, 0, 1000);
+  const PaulyOptions standard;
+  EXPECT_EQ(values.at("smallest-scale"), standard.smallest_scale);
+  EXPECT_EQ(values.at("largest-scale"), standard.largest_scale);
+  EXPECT_EQ(values.at("scale-step"), standard.scale_step);
+  EXPECT_EQ(values.at("variation"), standard.variation);
+  EXPECT_EQ(values.at("seed-share"), standard.seed_share);
+  EXPECT_EQ(values.at("grow-share"), standard.grow_share);
+  EXPECT_EQ(values.at("turn"), standard.turn_deg);
+  EXPECT_EQ(values.at("border-gap"), standard.border_gap_deg);
+  values = resolve_options(pauly, {{"plain", 1.0}, {"grow-share", 0.7}});
+  EXPECT_TRUE(pauly.is_plain(values));
+  EXPECT_EQ(pauly.reach(values), 120);
+  pauly.adapt(values, 0, 1000);
+  EXPECT_EQ(values.at("smallest-scale"), 15.0);
+  EXPECT_EQ(values.at("variation"), 0.04);
+  EXPECT_EQ(values.at("grow-share"), 0.7);
+  EXPECT_EQ(pauly.detect(PointCloud{}, Neighborhoods{}, values, no_progress()).size(), 0U);
 }
 
 }  // namespace

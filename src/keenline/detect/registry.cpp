@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/pauly.h"
 #include "keenline/errors.h"
 #include "keenline/io/text.h"
 #include "keenline/neighborhood/neighborhoods.h"
@@ -91,10 +92,72 @@ FeatureLabels gauss_detect(const PointCloud& cloud, const Neighborhoods& neighbo
   return labels;
 }
 
+constexpr std::array pauly_options{
+    OptionInfo{"smallest-scale", "Smallest neighbourhood to look at; auto = 8, with --plain 15",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
+               "auto"},
+    OptionInfo{"largest-scale", "Largest neighbourhood to look at; auto = 32, with --plain 120",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
+               "auto"},
+    OptionInfo{"scale-step", "From one size of neighbourhood to the next; auto = 4, with --plain 5",
+               OptionInfo::Type::Integer, 1, max_neighbors, false, "points", std::nullopt, "auto"},
+    OptionInfo{"variation",
+               "Surface variation above which a scale speaks for a feature: half of 0.085 finds edges of 90 "
+               "degrees, of 0.019 those of an icosahedron; auto = from the cloud, with --plain 0.04",
+               OptionInfo::Type::Real, 0, 0.333, true, "", std::nullopt, "auto"},
+    OptionInfo{"seed-share", "Share of its scales that makes a point a feature", OptionInfo::Type::Real, 0, 1,
+               false, "", 0.95, ""},
+    OptionInfo{"grow-share",
+               "Share of its scales that makes the neighbour of a feature one; auto = 0.9, with --plain 0.6",
+               OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
+    OptionInfo{"turn", "Larger scales are left out from where the normal turns by more",
+               OptionInfo::Type::Real, 0, 90, false, "degrees", 30, ""},
+    OptionInfo{"border-gap", "Sector without neighbours that makes a border; 360 = no borders",
+               OptionInfo::Type::Real, 0, 360, false, "degrees", 120, ""},
+    OptionInfo{"plain", "The paper's parameters where none are given", OptionInfo::Type::Flag, 0, 1, false,
+               "", 0, ""},
+};
+
+bool pauly_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
+
+int pauly_reach(const OptionValues& values) {
+  return static_cast<int>(values.at("largest-scale").value_or(pauly_is_plain(values) ? 120 : 32));
+}
+
+void pauly_adapt(OptionValues& values, double /*noise*/, std::size_t /*points*/) {
+  const bool plain = pauly_is_plain(values);
+  const auto fill = [&](std::string_view name, double with_plain, double otherwise) {
+    auto& value = values.find(name)->second;
+    if (!value) value = plain ? with_plain : otherwise;
+  };
+  fill("smallest-scale", 15, 8);
+  fill("largest-scale", 120, 32);
+  fill("scale-step", 5, 4);
+  fill("grow-share", 0.6, 0.9);
+  if (plain && !values.at("variation")) values.at("variation") = 0.04;
+}
+
+FeatureLabels pauly_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
+                           Progress& progress) {
+  PaulyOptions options;
+  options.smallest_scale = static_cast<int>(*values.at("smallest-scale"));
+  options.largest_scale = static_cast<int>(*values.at("largest-scale"));
+  options.scale_step = static_cast<int>(*values.at("scale-step"));
+  options.variation = values.at("variation");
+  options.seed_share = *values.at("seed-share");
+  options.grow_share = *values.at("grow-share");
+  options.turn_deg = *values.at("turn");
+  options.border_gap_deg = *values.at("border-gap");
+  return detect_pauly(cloud, neighborhoods, options, progress);
+}
+
 constexpr std::array table{
     Method{"gauss", "Gauss map clustering: directions of the triangles around a point",
            "Weber, Hahmann, Hagen 2010: Methods for Feature Detection in Point Clouds", MethodInput::Points,
            gauss_options, gauss_reach, gauss_adapt, gauss_is_plain, gauss_detect},
+    Method{"pauly", "Surface variation at many scales, with hysteresis",
+           "Pauly, Keiser, Gross 2003: Multi-scale Feature Extraction on Point-Sampled Surfaces",
+           MethodInput::Points, pauly_options, pauly_reach, pauly_adapt, pauly_is_plain, pauly_detect},
 };
 
 [[noreturn]] void refuse(const OptionInfo& option, std::string_view found) {
