@@ -6,6 +6,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/gumhold.h"
 #include "keenline/detect/pauly.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighborhoods.h"
@@ -170,6 +171,29 @@ TEST(Registry, PaulyOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(values.at("variation"), 0.04);
   EXPECT_EQ(values.at("grow-share"), 0.7);
   EXPECT_EQ(pauly.detect(PointCloud{}, Neighborhoods{}, values, no_progress()).size(), 0U);
+}
+
+TEST(Registry, GumholdOptionsAreThoseOfTheMethod) {
+  const Method& gumhold = find_method("gumhold");
+  const auto adapted = [&](const OptionValues& given, double noise) {
+    OptionValues values = resolve_options(gumhold, given);
+    gumhold.adapt(values, noise, 1000);
+    return values;
+  };
+  const GumholdOptions standard;
+  const OptionValues values = adapted({}, 0);
+  EXPECT_EQ(values.at("neighbors"), standard.neighbors);
+  EXPECT_EQ(values.at("crease-limit"), standard.crease_limit);
+  EXPECT_EQ(values.at("border-gap"), standard.border_gap_deg);
+  EXPECT_EQ(values.at("shortest-cycle"), std::nullopt);
+  EXPECT_FALSE(gumhold.is_plain(values));
+  EXPECT_NEAR(*adapted({}, 0.1).at("crease-limit"), 1.2, 1e-12);
+  EXPECT_NEAR(*adapted({}, 5).at("crease-limit"), 1.0, 1e-12);
+  EXPECT_EQ(adapted({{"plain", 1.0}}, 5).at("crease-limit"), 1.7);
+  EXPECT_EQ(adapted({{"crease-limit", 0.5}}, 5).at("crease-limit"), 0.5);
+  EXPECT_EQ(gumhold.reach(adapted({{"neighbors", 20.0}}, 0)), 20);
+  OptionValues given = adapted({{"shortest-cycle", 7.0}, {"plain", 1.0}}, 0);
+  EXPECT_EQ(gumhold.detect(PointCloud{}, Neighborhoods{}, given, no_progress()).size(), 0U);
 }
 
 }  // namespace

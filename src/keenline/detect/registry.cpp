@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/gumhold.h"
 #include "keenline/detect/pauly.h"
 #include "keenline/errors.h"
 #include "keenline/io/text.h"
@@ -92,6 +93,17 @@ FeatureLabels gauss_detect(const PointCloud& cloud, const Neighborhoods& neighbo
   return labels;
 }
 
+constexpr OptionInfo border_gap_option{
+    "border-gap",
+    "Sector without neighbours that makes a border; 360 = no borders; auto = 120, for gumhold 100",
+    OptionInfo::Type::Real,
+    0,
+    360,
+    false,
+    "degrees",
+    std::nullopt,
+    "auto"};
+
 constexpr std::array pauly_options{
     OptionInfo{"smallest-scale", "Smallest neighbourhood to look at; auto = 8, with --plain 15",
                OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
@@ -112,8 +124,7 @@ constexpr std::array pauly_options{
                OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
     OptionInfo{"turn", "Larger scales are left out from where the normal turns by more",
                OptionInfo::Type::Real, 0, 90, false, "degrees", 30, ""},
-    OptionInfo{"border-gap", "Sector without neighbours that makes a border; 360 = no borders",
-               OptionInfo::Type::Real, 0, 360, false, "degrees", 120, ""},
+    border_gap_option,
     OptionInfo{"plain", "The paper's parameters where none are given", OptionInfo::Type::Flag, 0, 1, false,
                "", 0, ""},
 };
@@ -134,6 +145,7 @@ void pauly_adapt(OptionValues& values, double /*noise*/, std::size_t /*points*/)
   fill("largest-scale", 120, 32);
   fill("scale-step", 5, 4);
   fill("grow-share", 0.6, 0.9);
+  fill("border-gap", 120, 120);
   if (plain && !values.at("variation")) values.at("variation") = 0.04;
 }
 
@@ -151,6 +163,44 @@ FeatureLabels pauly_detect(const PointCloud& cloud, const Neighborhoods& neighbo
   return detect_pauly(cloud, neighborhoods, options, progress);
 }
 
+constexpr std::array gumhold_options{
+    OptionInfo{"neighbors", "Nearest neighbours in the graph that the pattern is taken from",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", 16, ""},
+    OptionInfo{"crease-limit",
+               "Penalty below which a connection of neighbours may be part of a crease: 2 is a plane, 0.2 an "
+               "edge of 90 degrees; auto = 1.4, down to 1 as noise grows, with --plain 1.7",
+               OptionInfo::Type::Real, 0, 2, false, "", std::nullopt, "auto"},
+    border_gap_option,
+    OptionInfo{"shortest-cycle",
+               "Edges that cycles need, and half as many that branches need; auto = half the square root of "
+               "the number of points",
+               OptionInfo::Type::Integer, 1, 1e9, false, "edges", std::nullopt, "auto"},
+    OptionInfo{"plain", "The paper's penalties", OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
+};
+
+bool gumhold_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
+
+int gumhold_reach(const OptionValues& values) { return static_cast<int>(*values.at("neighbors")); }
+
+void gumhold_adapt(OptionValues& values, double noise, std::size_t /*points*/) {
+  // Noise bends: a tenth of a spacing makes up for the curvature of an edge of 150 degrees.
+  auto& limit = values.at("crease-limit");
+  if (!limit) limit = gumhold_is_plain(values) ? 1.7 : 1.4 - 2 * std::min(noise, 0.2);
+  auto& border_gap = values.at("border-gap");
+  if (!border_gap) border_gap = 100;
+}
+
+FeatureLabels gumhold_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                             OptionValues& values, Progress& progress) {
+  GumholdOptions options;
+  options.neighbors = gumhold_reach(values);
+  options.crease_limit = *values.at("crease-limit");
+  options.border_gap_deg = *values.at("border-gap");
+  if (const auto& cycle = values.at("shortest-cycle")) options.shortest_cycle = static_cast<int>(*cycle);
+  options.plain = gumhold_is_plain(values);
+  return detect_gumhold(cloud, neighborhoods, options, progress);
+}
+
 constexpr std::array table{
     Method{"gauss", "Gauss map clustering: directions of the triangles around a point",
            "Weber, Hahmann, Hagen 2010: Methods for Feature Detection in Point Clouds", MethodInput::Points,
@@ -158,6 +208,9 @@ constexpr std::array table{
     Method{"pauly", "Surface variation at many scales, with hysteresis",
            "Pauly, Keiser, Gross 2003: Multi-scale Feature Extraction on Point-Sampled Surfaces",
            MethodInput::Points, pauly_options, pauly_reach, pauly_adapt, pauly_is_plain, pauly_detect},
+    Method{"gumhold", "Minimum spanning pattern of a neighbour graph whose edges are penalised off creases",
+           "Gumhold, Wang, MacLeod 2001: Feature Extraction from Point Clouds", MethodInput::Points,
+           gumhold_options, gumhold_reach, gumhold_adapt, gumhold_is_plain, gumhold_detect},
 };
 
 [[noreturn]] void refuse(const OptionInfo& option, std::string_view found) {
