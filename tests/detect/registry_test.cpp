@@ -9,7 +9,7 @@
 #include "keenline/detect/gumhold.h"
 #include "keenline/detect/pauly.h"
 #include "keenline/errors.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 
 #include "support/expect_error.h"
 
@@ -108,7 +108,7 @@ TEST(Registry, ReportsWhatWasChosenFromTheData) {
   const Method& gauss = find_method("gauss");
   OptionValues values = resolve_options(gauss, {{"sigma", std::nullopt}});
   const PointCloud cloud;
-  const FeatureLabels labels = gauss.detect(cloud, Neighborhoods{}, values, no_progress());
+  const FeatureLabels labels = gauss.detect(cloud, NeighborSearch(cloud.positions), values, no_progress());
   EXPECT_EQ(labels.size(), 0U);
   ASSERT_TRUE(values.at("sigma").has_value());
   EXPECT_GT(*values.at("sigma"), 0);

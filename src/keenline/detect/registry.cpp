@@ -86,9 +86,9 @@ void gauss_adapt(OptionValues& values, double noise, std::size_t points) {
   if (!min_sine) min_sine = plain ? 0.001 : std::clamp(noise, 0.001, 0.3);
 }
 
-FeatureLabels gauss_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
+FeatureLabels gauss_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
                            Progress& progress) {
-  FeatureLabels labels = detect_gauss(cloud, neighborhoods, gauss_options_from(values), progress);
+  FeatureLabels labels = detect_gauss(cloud, search, gauss_options_from(values), progress);
   values["sigma"] = labels.sigma_deg;
   return labels;
 }

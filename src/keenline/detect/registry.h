@@ -13,7 +13,7 @@
 namespace keenline {
 
 struct GaussOptions;
-struct Neighborhoods;
+class NeighborSearch;
 struct PointCloud;
 
 /// One option of a method, stated once: the command line, bindings and docs take it from here.
@@ -53,9 +53,10 @@ struct Method {
   void (*adapt)(OptionValues& values, double noise, std::size_t points);
   /// Do the values ask for the published method and nothing else? Then its points are not smoothed either.
   bool (*is_plain)(const OptionValues& values);
-  /// `values` holds every option of the method (see resolve_options); it comes back with what was chosen from
+  /// The search is that of cloud.positions. `values` holds every option of the method (see resolve_options);
+  /// it comes back with what was chosen from
   /// the data.
-  FeatureLabels (*detect)(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
+  FeatureLabels (*detect)(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
                           Progress& progress);
 };
 

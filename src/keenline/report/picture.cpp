@@ -19,6 +19,7 @@
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/report/legend.h"
 #include "keenline/report/splats.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -147,7 +148,7 @@ class Frame {
 };
 
 Point in_view(const CameraAxes& axes, const Point& v) {
-  return {dot_product(axes.right, v), dot_product(axes.up, v), dot_product(axes.toward, v)};
+  return {dot(axes.right, v), dot(axes.up, v), dot(axes.toward, v)};
 }
 
 /// Where and how large the cloud appears in `width` x `height` pixels.
@@ -191,7 +192,7 @@ Disc disc_of(std::span<const Point> offsets) {
   Disc disc;
   if (offsets.empty()) return disc;
   const Point& rim = offsets[std::min(offsets.size(), neighbor_at_rim) - 1];
-  disc.radius = std::sqrt(dot_product(rim, rim));
+  disc.radius = length(rim);
   if (offsets.size() < 3 || disc.radius == 0) return disc;
   Point mean{};
   for (const Point& offset : offsets)
