@@ -32,7 +32,8 @@ bool is_beside(const Point& position, const Foot& foot, double aside) {
 
 }  // namespace
 
-void LineWalker::walk(std::span<const Foot> seeds, Progress& progress) {
+void LineWalker::walk(const Tracker& tracker, std::span<const Foot> seeds, Progress& progress) {
+  tracker_ = &tracker;
   std::vector<std::size_t> order(seeds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -97,7 +98,7 @@ bool LineWalker::go(std::vector<Foot>& feet, std::ptrdiff_t step) {
 std::optional<Foot> LineWalker::next_foot(const Foot& from) const {
   for (int steps = 1; steps <= 1 + most_missed; ++steps) {
     const Point expected = sum(from.position, scaled(steps * from.scale, from.tangent));
-    const auto foot = tracker_.follow(from, expected);
+    const auto foot = tracker_->follow(from, expected);
     if (!foot || dot(foot->tangent, from.tangent) < largest_turn) continue;
     // A foot that falls back would let the walk go round on the spot.
     if (dot(difference(foot->position, from.position), from.tangent) < 0.3 * from.scale) continue;
