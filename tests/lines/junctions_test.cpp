@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keenline/kernels/portable_math.h"
+
 #include "support/straight_path.h"
 
 namespace keenline {
@@ -72,6 +74,49 @@ TEST(ConnectPaths, AStretchThatTheDetectorDidNotSeeMustLeadToACorner) {
   const FeatureGraph met = connect_paths({path, straight_path({31, 1, 0}, {31, 20, 0}, x, z)}, frame, 6);
   ASSERT_EQ(met.polylines.size(), 2U);
   EXPECT_NEAR(length_of(met.polylines[0]), 0.5 * 31, 5e-3);
+}
+
+TEST(ConnectPaths, ALooseEndBesideACornerBelongsToIt) {
+  // The last path has run past the corner and aside.
+  const FeatureGraph graph =
+      connect_paths({straight_path({1, 0, 0}, {20, 0, 0}, y, z), straight_path({0, 1, 0}, {0, 20, 0}, x, z),
+                     straight_path({0, 0, 1}, {0, 0, 20}, x, y),
+                     straight_path({-20, -20, 1.3}, {-1, -1, 1.3}, {1, -1, 0}, z)},
+                    frame, 6);
+  validate(graph);
+  EXPECT_EQ(graph.corners.size(), 1U);
+  ASSERT_EQ(graph.polylines.size(), 4U);
+  for (const Polyline& line : graph.polylines) EXPECT_TRUE(line.start_corner || line.end_corner);
+}
+
+TEST(ConnectPaths, ALoopWithLinesIsCutAtItsCorners) {
+  Path loop;
+  loop.closed = true;
+  for (int i = 0; i < 60; ++i) {
+    const auto [sin, cos] = kernels::sin_cos(kernels::radians(6.0 * i));
+    Foot foot;
+    foot.position = {10 * cos, 10 * sin, 0};
+    foot.tangent = {-sin, cos, 0};
+    foot.normals = {z, Point{cos, sin, 0}};
+    foot.is_backed = true;
+    loop.feet.push_back(foot);
+  }
+  const Path spoke = straight_path({12, 0, 0}, {30, 0, 0}, y, z);
+  const FeatureGraph one = connect_paths({loop, spoke}, frame, 6);
+  validate(one);
+  EXPECT_EQ(one.corners.size(), 1U);
+  ASSERT_EQ(one.polylines.size(), 2U);
+  EXPECT_TRUE(one.polylines[0].closed);
+  EXPECT_EQ(one.polylines[0].start_corner, 0U);
+  const FeatureGraph two =
+      connect_paths({loop, spoke, straight_path({-30, 0, 0}, {-12, 0, 0}, y, z)}, frame, 6);
+  validate(two);
+  EXPECT_EQ(two.corners.size(), 2U);
+  ASSERT_EQ(two.polylines.size(), 4U);
+  for (const Polyline& line : two.polylines) EXPECT_FALSE(line.closed);
+  double length = 0;
+  for (const Polyline& line : two.polylines) length += length_of(line);
+  EXPECT_NEAR(length, 0.5 * (20 + 20 + 62.8), 0.5);
 }
 
 }  // namespace

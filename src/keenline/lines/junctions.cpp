@@ -1,6 +1,7 @@
 #include "keenline/lines/junctions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,8 @@ namespace {
 constexpr std::size_t fewest_feet = 3;  // of a path
 constexpr double passes = 1.25;         // a line that passes a corner this closely goes through it
 constexpr double clear = 2;             // a foot this far from a corner hardly sees past it
+constexpr double same_corner = 1.5;     // corners this close to each other are one
+constexpr double stray = 2.5;           // a loose end this close to a corner belongs to it
 constexpr double trimmed = 1;           // feet nearer than this to a corner have seen past it
 
 double length_of(const Path& path) {
@@ -124,6 +127,7 @@ class CornerFinder {
 
   [[nodiscard]] std::vector<Corner> find() const {
     std::vector<Corner> corners;
+    FootGrid places;
     for (std::vector<PathEnd>& ends : gather_ends(paths_)) {
       std::vector<const Foot*> feet;
       for (const PathEnd& end : ends) feet.push_back(&foot_at(paths_, end));
@@ -133,14 +137,61 @@ class CornerFinder {
         feet.push_back(ahead);
       }
       Corner corner{common_point(feet), std::move(ends), {}};
-      corner.passages = passages_at(corner);
-      corner.at = common_point(clear_feet(corner));
+      settle(corner);
+      const auto same = corner_near(places, corner.at.position, same_corner * feet[0]->scale);
+      if (same) {
+        corners[*same].ends.insert(corners[*same].ends.end(), corner.ends.begin(), corner.ends.end());
+        settle(corners[*same]);
+        continue;
+      }
+      Foot place;
+      place.position = corner.at.position;
+      places.insert({corners.size(), 0, place});
       corners.push_back(std::move(corner));
     }
+    attach_strays(corners, places);
     return corners;
   }
 
  private:
+  /// Which lines pass the corner, and where all of its lines come together.
+  void settle(Corner& corner) const {
+    corner.passages = passages_at(corner);
+    corner.at = common_point(clear_feet(corner));
+  }
+
+  /// The corner nearest to a position, by the place where it was first.
+  [[nodiscard]] static std::optional<std::size_t> corner_near(const FootGrid& places, const Point& position,
+                                                              double reach) {
+    std::optional<std::size_t> nearest;
+    places.near(position, reach, [&](const FootGrid::Entry& entry) {
+      const double d = distance(entry.foot.position, position);
+      if (d >= reach) return;
+      reach = d;
+      nearest = entry.path;
+    });
+    return nearest;
+  }
+
+  /// The last feet of a walk have seen past the corner, and may point past it: loose ends belong to a corner
+  /// that is close to them in any direction.
+  void attach_strays(std::vector<Corner>& corners, const FootGrid& places) const {
+    std::vector<std::array<bool, 2>> is_loose(paths_.size(), {true, true});
+    for (const Corner& corner : corners)
+      for (const PathEnd& end : corner.ends) is_loose[end.path][end.at_back ? 1 : 0] = false;
+    for (std::size_t p = 0; p < paths_.size(); ++p) {
+      if (paths_[p].closed || relative_length(paths_[p]) < shortest_) continue;
+      for (const bool at_back : {false, true}) {
+        if (!is_loose[p][at_back ? 1 : 0]) continue;
+        const Foot& foot = foot_at(paths_, {p, at_back});
+        const auto corner = corner_near(places, foot.position, stray * foot.scale);
+        if (!corner) continue;
+        corners[*corner].ends.push_back({p, at_back});
+        settle(corners[*corner]);
+      }
+    }
+  }
+
   /// The place on another line that an end runs into.
   [[nodiscard]] const Foot* line_ahead(const PathEnd& end) const {
     if (relative_length(paths_[end.path]) < shortest_) return nullptr;
