@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "keenline/cloud.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/spacing.h"
 
 namespace keenline::bench {
@@ -18,7 +18,7 @@ std::vector<bool> cgal_edges(const PointCloud& cloud) {
   points.reserve(cloud.size());
   for (const Point& p : cloud.positions) points.emplace_back(p[0], p[1], p[2]);
   // Radii in spacings, as its manual's example has them in proportion to each other.
-  const double spacing = estimate_spacing(cloud, find_neighborhoods(cloud, 16));
+  const double spacing = estimate_spacing(cloud, NeighborSearch(cloud.positions));
   constexpr double threshold = 0.16;
   std::vector<std::array<double, 6>> covariances;
   const auto maps =

@@ -22,6 +22,7 @@
 #include "keenline/evaluate/evaluate.h"
 #include "keenline/io/read.h"
 #include "keenline/kernels/target.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/pipeline.h"
 #include "keenline/synth/synth.h"
@@ -89,8 +90,8 @@ Round measure(Subject& subject, const GaussOptions& options, bool with_rivals) {
   Neighborhoods table;
   FeatureLabels labels;
   const auto detect = [&] {
-    table = find_neighborhoods(cloud, options.neighbors);
-    labels = detect_gauss(cloud, table, options);
+    const NeighborSearch search(cloud.positions);
+    labels = detect_gauss(cloud, search, options);
   };
   double one_thread_s = 0;
   {
@@ -99,6 +100,7 @@ Round measure(Subject& subject, const GaussOptions& options, bool with_rivals) {
     round.neighbors_s = bench::processor_s([&] { table = find_neighborhoods(cloud, neighbors); });
     one_thread_s = bench::wall_s([&] { round.gauss_s = bench::processor_s(detect); });
     if (with_rivals) {
+      table = find_neighborhoods(cloud, options.neighbors);
       round.textbook_s = textbook_s(cloud, table);
 #ifdef KEENLINE_BENCH_CGAL
       round.cgal_s = bench::processor_s([&] { (void)bench::cgal_edges(cloud); });
@@ -117,7 +119,7 @@ double median_of(const std::vector<Round>& rounds, const std::function<double(co
 }
 
 void report(Subject subject, int rounds_wanted, bool with_rivals) {
-  const double noise = estimate_noise(subject.cloud, find_neighborhoods(subject.cloud, neighbors));
+  const double noise = estimate_noise(subject.cloud, NeighborSearch(subject.cloud.positions));
   const GaussOptions options = default_options(subject.cloud, noise);
   std::vector<Round> rounds;
   for (int i = 0; i < rounds_wanted; ++i) rounds.push_back(measure(subject, options, with_rivals));

@@ -46,6 +46,20 @@ TEST(FeatureGraph, ExtentCoversVerticesAndCorners) {
   EXPECT_EQ(extent.high, (Point{3, 4, 9}));
 }
 
+TEST(FeatureGraph, CountsTellLoopsFromLooseEnds) {
+  FeatureGraph graph = small_graph();
+  graph.polylines.push_back(triangle());
+  graph.polylines.back().closed = true;
+  graph.polylines.push_back(triangle());
+  graph.polylines.back().end_corner = 1;
+  const GraphCounts counts = counts_of(graph);
+  EXPECT_EQ(counts.length, 7 + 12 + 7);
+  EXPECT_EQ(counts.corners, 2U);
+  EXPECT_EQ(counts.polylines, 3U);
+  EXPECT_EQ(counts.loops, 1U);
+  EXPECT_EQ(counts.loose_ends, 1U);
+}
+
 TEST(FeatureGraph, AcceptsWhatItDescribes) {
   EXPECT_NO_THROW(validate({}));
   FeatureGraph graph = small_graph();

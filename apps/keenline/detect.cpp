@@ -27,20 +27,6 @@ struct DetectArguments {
   bool quiet = false;
 };
 
-nlohmann::json json_options(const Method& method, const OptionValues& values) {
-  nlohmann::json object = nlohmann::json::object();
-  for (const OptionInfo& option : method.options) {
-    const std::string name(option.name);
-    const std::optional<double>& value = values.at(name);
-    const std::string text = text_of(option, value);
-    if (text == option.automatic || text == option.word_for_minimum) object[name] = text;
-    else if (option.type == OptionInfo::Type::Flag) object[name] = *value != 0;
-    else if (option.type == OptionInfo::Type::Integer) object[name] = static_cast<std::int64_t>(*value);
-    else object[name] = *value;
-  }
-  return object;
-}
-
 void print_json_report(const DetectArguments& arguments, const DetectReport& report) {
   const StageTimes& times = report.times;
   print_json({{"input", arguments.job.input},
@@ -65,20 +51,6 @@ void print_json_report(const DetectArguments& arguments, const DetectReport& rep
                 {"write", times.write_s},
                 {"total", times.total_s}}},
               {"peak_memory_bytes", peak_memory()}});
-}
-
-std::string option_words(const Method& method, const OptionValues& values) {
-  std::string words;
-  for (const OptionInfo& option : method.options) {
-    const std::optional<double>& value = values.at(std::string(option.name));
-    if (option.type == OptionInfo::Type::Flag) {
-      if (value != option.default_value)
-        words += fmt::format(", {}{}", value == 1.0 ? "" : "no-", option.name);
-      continue;
-    }
-    words += fmt::format(", {} {}", option.name, text_of(option, value));
-  }
-  return words;
 }
 
 void print_summary(const DetectArguments& arguments, const DetectReport& report) {
@@ -123,16 +95,7 @@ void add_detect(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("NAME");
   add_method_options(*command, methods(), arguments->method);
-  command
-      ->add_option("--smooth", arguments->job.smoothing,
-                   fmt::format("Look at smoothed positions: yes, no, or auto = where the noise is above {} "
-                               "spacings (default auto; never with --plain)",
-                               noise_worth_smoothing))
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Smoothing>{
-              {"auto", Smoothing::Auto}, {"yes", Smoothing::Yes}, {"no", Smoothing::No}},
-          CLI::ignore_case))
-      ->type_name("auto|yes|no");
+  add_smoothing_option(*command, arguments->job.smoothing);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
   command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");

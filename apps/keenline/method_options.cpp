@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace keenline::cli {
 
@@ -46,6 +47,47 @@ OptionValues parsed_options(const CLI::App& command, const Method& method, const
   for (const auto& [name, set] : arguments.flags)
     if (command.count("--" + name) > 0) values[name] = set ? 1 : 0;
   return values;
+}
+
+void add_smoothing_option(CLI::App& command, Smoothing& smoothing) {
+  command
+      .add_option("--smooth", smoothing,
+                  fmt::format("Look at smoothed positions: yes, no, or auto = where the noise is above {} "
+                              "spacings (default auto; never with --plain)",
+                              noise_worth_smoothing))
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Smoothing>{
+              {"auto", Smoothing::Auto}, {"yes", Smoothing::Yes}, {"no", Smoothing::No}},
+          CLI::ignore_case))
+      ->type_name("auto|yes|no");
+}
+
+nlohmann::json json_options(const Method& method, const OptionValues& values) {
+  nlohmann::json object = nlohmann::json::object();
+  for (const OptionInfo& option : method.options) {
+    const std::string name(option.name);
+    const std::optional<double>& value = values.at(name);
+    const std::string text = text_of(option, value);
+    if (text == option.automatic || text == option.word_for_minimum) object[name] = text;
+    else if (option.type == OptionInfo::Type::Flag) object[name] = *value != 0;
+    else if (option.type == OptionInfo::Type::Integer) object[name] = static_cast<std::int64_t>(*value);
+    else object[name] = *value;
+  }
+  return object;
+}
+
+std::string option_words(const Method& method, const OptionValues& values) {
+  std::string words;
+  for (const OptionInfo& option : method.options) {
+    const std::optional<double>& value = values.at(std::string(option.name));
+    if (option.type == OptionInfo::Type::Flag) {
+      if (value != option.default_value)
+        words += fmt::format(", {}{}", value == 1.0 ? "" : "no-", option.name);
+      continue;
+    }
+    words += fmt::format(", {} {}", option.name, text_of(option, value));
+  }
+  return words;
 }
 
 }  // namespace keenline::cli

@@ -5,7 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "keenline/detect/registry.h"
+#include "keenline/pipeline.h"
 
 namespace CLI {
 class App;
@@ -27,5 +30,12 @@ void add_method_options(CLI::App& command, std::span<const Method> methods, Meth
 /// What was given, for `method`. \throw InvalidArgument with the allowed range.
 [[nodiscard]] OptionValues parsed_options(const CLI::App& command, const Method& method,
                                           const MethodArguments& arguments);
+
+void add_smoothing_option(CLI::App& command, Smoothing& smoothing);
+
+/// Every option of the method with its value, as detect and lines report them.
+[[nodiscard]] nlohmann::json json_options(const Method& method, const OptionValues& values);
+/// ", neighbors 16, sigma 14.2, …"
+[[nodiscard]] std::string option_words(const Method& method, const OptionValues& values);
 
 }  // namespace keenline::cli

@@ -109,13 +109,21 @@ const Point& segment_end(const Polyline& line, std::size_t i) {
 
 double length_of(const Polyline& line) {
   double length = 0;
-  for (std::size_t i = 0; i < segment_count(line); ++i) {
-    const Point& a = line.vertices[i];
-    const Point& b = segment_end(line, i);
-    const Point ab{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    length += std::sqrt(dot(ab, ab));
-  }
+  for (std::size_t i = 0; i < segment_count(line); ++i)
+    length += distance(line.vertices[i], segment_end(line, i));
   return length;
+}
+
+GraphCounts counts_of(const FeatureGraph& graph) {
+  GraphCounts counts;
+  counts.corners = graph.corners.size();
+  counts.polylines = graph.polylines.size();
+  for (const Polyline& line : graph.polylines) {
+    counts.length += length_of(line);
+    if (line.closed) ++counts.loops;
+    else counts.loose_ends += (line.start_corner ? 0U : 1U) + (line.end_corner ? 0U : 1U);
+  }
+  return counts;
 }
 
 void validate(const FeatureGraph& graph) {

@@ -103,6 +103,17 @@ struct Extent {
 /// Vertex at which straight piece `i` ends.
 [[nodiscard]] const Point& segment_end(const Polyline& line, std::size_t i);
 
+/// What a graph consists of.
+struct GraphCounts {
+  double length = 0;  ///< of all polylines together
+  std::size_t corners = 0;
+  std::size_t polylines = 0;
+  std::size_t loops = 0;       ///< closed polylines
+  std::size_t loose_ends = 0;  ///< ends of open polylines that lie in no corner
+};
+
+[[nodiscard]] GraphCounts counts_of(const FeatureGraph& graph);
+
 /// No number of a valid graph is larger: so no square of a distance overflows.
 inline constexpr double largest_graph_number = 1e150;
 

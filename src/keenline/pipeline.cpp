@@ -13,7 +13,7 @@
 #include "keenline/io/output_file.h"
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/smooth.h"
 #include "keenline/neighborhood/spacing.h"
 
@@ -42,14 +42,30 @@ void require_writable_folder(const std::string& output) {
     throw OutputError(output, "cannot be written: " + system_message(errno));
 }
 
-std::vector<Point> smoothed_positions(const PointCloud& cloud, Neighborhoods& neighborhoods,
-                                      Progress& progress) {
-  const SmoothOptions options;
-  if (cloud.size() > 0 && neighborhoods.of(0).size() < static_cast<std::size_t>(options.neighbors)) {
-    neighborhoods = {};
-    neighborhoods = find_neighborhoods(cloud, options.neighbors, progress);
+/// Smoothing where it is due, and detection. \pre report.options holds every option of the method
+void detect_in(const PointCloud& cloud, const NeighborSearch& search, const Method& method,
+               Smoothing smoothing, DetectReport& report, Progress& progress) {
+  StopWatch stage;
+  report.spacing = estimate_spacing(cloud, search);
+  report.noise = estimate_noise(cloud, search, progress);
+  method.adapt(report.options, report.noise, count_finite(cloud));
+  report.times.neighborhoods_s += stage.lap_s();
+  report.smoothed =
+      !method.is_plain(report.options) &&
+      (smoothing == Smoothing::Yes || (smoothing == Smoothing::Auto && report.noise > noise_worth_smoothing));
+  if (!report.smoothed) {
+    report.labels = method.detect(cloud, search, report.options, progress);
+    report.times.detect_s = stage.lap_s();
+    return;
   }
-  return smooth_positions(cloud, neighborhoods, options, progress);
+  const SmoothOptions options;
+  PointCloud smooth;  // positions only
+  progress.begin("neighborhoods", cloud.size());
+  smooth.positions = smooth_positions(cloud, search.all(options.neighbors, progress), options, progress);
+  const NeighborSearch smooth_search(smooth.positions, progress);
+  report.times.smooth_s = stage.lap_s();
+  report.labels = method.detect(smooth, smooth_search, report.options, progress);
+  report.times.detect_s = stage.lap_s();
 }
 
 void require_usable_output(const std::string& input, const std::string& output) {
@@ -80,12 +96,12 @@ LabelSpectrum spectrum_in(const std::string& file, const PointCloud& cloud) {
 }
 
 template <typename Report>
-void take_over(Reading& reading, Report& report) {
+void take_over(const Reading& reading, Report& report) {
   report.format = reading.format;
   report.encoding = reading.encoding;
   report.points = reading.cloud.size();
   report.finite_points = count_finite(reading.cloud);
-  report.notes = std::move(reading.notes);
+  report.notes.insert(report.notes.begin(), reading.notes.begin(), reading.notes.end());
 }
 
 /// Completes the report once all is written. The arguments must live until then.
@@ -114,26 +130,13 @@ DetectReport run_detect(const DetectJob& job, Progress& progress,
   StopWatch stage;
   Reading reading = read_cloud(job.input, progress);
   report.times.read_s = stage.lap_s();
-  const int first_reach = method.reach(report.options);
-  Neighborhoods neighborhoods = find_neighborhoods(reading.cloud, first_reach, progress);
-  report.spacing = estimate_spacing(reading.cloud, neighborhoods);
-  report.noise = estimate_noise(reading.cloud, neighborhoods, progress);
-  report.times.neighborhoods_s = stage.lap_s();
-  method.adapt(report.options, report.noise, count_finite(reading.cloud));
-  report.smoothed = !method.is_plain(report.options) &&
-                    (job.smoothing == Smoothing::Yes ||
-                     (job.smoothing == Smoothing::Auto && report.noise > noise_worth_smoothing));
-  PointCloud smooth;  // positions only
-  if (report.smoothed) smooth.positions = smoothed_positions(reading.cloud, neighborhoods, progress);
-  const PointCloud& seen = report.smoothed ? smooth : reading.cloud;
-  const int reach = method.reach(report.options);
-  if (report.smoothed || reach != first_reach) {
-    neighborhoods = {};
-    neighborhoods = find_neighborhoods(seen, reach, progress);
+  {
+    progress.begin("neighborhoods", 0);
+    const NeighborSearch search(reading.cloud.positions, progress);
+    report.times.neighborhoods_s = stage.lap_s();
+    detect_in(reading.cloud, search, method, job.smoothing, report, progress);
+    (void)stage.lap_s();
   }
-  report.times.smooth_s = stage.lap_s();
-  report.labels = method.detect(seen, neighborhoods, report.options, progress);
-  report.times.detect_s = stage.lap_s();
   const std::vector<std::string> replaced = add_labels(reading.cloud, report.labels);
   take_over(reading, report);
   for (const std::string& name : replaced)

@@ -44,8 +44,9 @@ struct StageTimes {
   double total_s = 0;
 };
 
+/// What was understood of the input, and what a method found in it.
 struct DetectReport {
-  std::string format;  ///< of the input
+  std::string format;
   std::string encoding;
   std::size_t points = 0;
   std::size_t finite_points = 0;

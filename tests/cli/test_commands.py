@@ -227,6 +227,17 @@ class Others(FolderTest):
         shorter = self.write("s.csv", "x,y,z,truth\n0,0,0,1\n")
         self.expect_refusal(run("evaluate", prediction, "--truth", shorter), 1, "2", "1")
 
+    def test_kinds_are_counted_by_truth_and_found(self):
+        path = self.write("k.csv", "x,y,z,kind,truth_kind\n0,0,0,2,2\n0,0,1,3,2\n0,1,1,0,5\n")
+        report = run_json("evaluate", path, path, "--kinds")
+        self.assertEqual(report["files"], [str(path)] * 2)
+        counts = {(truth, found): n for truth, row in report["kinds"].items() for found, n in row.items() if n}
+        self.assertEqual(counts, {("edge", "edge"): 2, ("edge", "corner"): 2, ("border", "flat"): 2})
+        table = [line.split() for line in run("evaluate", path, "--kinds").stdout.splitlines()]
+        self.assertIn(["edge", "0", "0", "1", "1", "0", "0", "0"], table)
+        self.expect_refusal(run("evaluate", self.cube(100), "--kinds"), 1, "cube.ply", "kind")
+        self.expect_refusal(run("evaluate", self.write("9.csv", "x,y,z,kind,truth_kind\n0,0,0,9,2\n"), "--kinds"), 1, "9.csv", "kind")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -60,6 +60,13 @@ class SameAsAFreshRun(RelabelTest):
     def test_on_every_point_with_plain(self):
         self.expect_fresh_files("--plain")
 
+    def test_local_is_a_choice_for_every_point(self):
+        self.done("detect", self.fandisk(), "-o", self.path("fresh.ply"), "--spectrum", "--sigma", "local")
+        self.done("detect", self.path("fandisk.ply"), "-o", self.path("kept.ply"), "--spectrum")
+        self.done("relabel", self.path("kept.ply"), "-o", self.path("again.ply"), "--sigma", "local")
+        self.assertNotEqual(self.path("kept.ply").read_bytes(), self.path("fresh.ply").read_bytes())
+        self.assertEqual(self.path("again.ply").read_bytes(), self.path("fresh.ply").read_bytes())
+
     def test_one_after_the_other_and_back(self):
         kept = self.spectrum()
         sigma = next(c for c in run_json("info", kept)["comments"] if c.startswith("keenline sigma ")).split()[-1]

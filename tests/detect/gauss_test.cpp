@@ -15,6 +15,7 @@
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
 #include "keenline/io/read.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/synth/synth.h"
 
@@ -370,6 +371,30 @@ TEST(Gauss, ThreadsChangeNothing) {
     EXPECT_EQ(found.score, expected.score);
     EXPECT_EQ(found.clusters, expected.clusters);
     EXPECT_EQ(found.sigma_deg, expected.sigma_deg);
+  }
+}
+
+TEST(Gauss, WithoutATableOfNeighborsTheLabelsAreTheSame) {
+  PointCloud cloud = shape("fandisk", 3000, 0.05).cloud;
+  for (std::size_t i = 0; i < 40; ++i) cloud.positions.push_back(cloud.positions[7 * i]);
+  cloud.positions[5] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  for (const int scales : {1, 3}) {
+    GaussOptions options;
+    options.scales = scales;
+    options.keep_spectrum = true;
+    const std::vector<int> sizes = neighborhood_sizes(options.neighbors, scales);
+    const int most = *std::max_element(sizes.begin(), sizes.end());
+    const FeatureLabels expected = detect_gauss(cloud, find_neighborhoods(cloud, most), options);
+    const FeatureLabels found = detect_gauss(cloud, NeighborSearch(cloud.positions), options);
+    EXPECT_EQ(found.kind, expected.kind);
+    EXPECT_EQ(found.kind[5], Kind::Undecided);
+    EXPECT_EQ(found.score, expected.score);
+    EXPECT_EQ(found.clusters, expected.clusters);
+    EXPECT_EQ(found.sigma_deg, expected.sigma_deg);
+    EXPECT_EQ(found.spectrum->offsets, expected.spectrum->offsets);
+    EXPECT_EQ(found.spectrum->from, expected.spectrum->from);
+    EXPECT_EQ(found.spectrum->kind, expected.spectrum->kind);
+    EXPECT_EQ(found.spectrum->clusters, expected.spectrum->clusters);
   }
 }
 

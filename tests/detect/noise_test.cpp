@@ -11,7 +11,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/synth/synth.h"
 
 #include "support/motion.h"
@@ -31,7 +31,7 @@ PointCloud shape(const std::string& name, double noise_h = 0, Sampling sampling 
   return synthesize(options).cloud;
 }
 
-double noise_of(const PointCloud& cloud) { return estimate_noise(cloud, find_neighborhoods(cloud, 16)); }
+double noise_of(const PointCloud& cloud) { return estimate_noise(cloud, NeighborSearch(cloud.positions)); }
 
 TEST(Noise, IsTheStandardDeviationInSpacings) {
   for (const double level : {0.05, 0.1, 0.2, 0.35, 0.5})
@@ -65,11 +65,11 @@ TEST(Noise, DoesNotDependOnScalePlaceOrDirection) {
 
 TEST(Noise, IsTheSameForAnyNumberOfThreads) {
   const PointCloud cloud = shape("sphere", 0.1, Sampling::Random, 20000);
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 16);
-  const double noise = estimate_noise(cloud, neighborhoods);
+  const NeighborSearch search(cloud.positions);
+  const double noise = estimate_noise(cloud, search);
   for (const std::size_t threads : {1U, 2U, 16U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    EXPECT_EQ(estimate_noise(cloud, neighborhoods), noise);
+    EXPECT_EQ(estimate_noise(cloud, search), noise);
   }
 }
 
@@ -93,11 +93,6 @@ TEST(Noise, PassesOverWhatIsNotFiniteOrFarAway) {
   EXPECT_NEAR(noise_of(cloud), noise, 0.01);
 }
 
-TEST(Noise, RefusesNeighborhoodsOfAnotherCloud) {
-  EXPECT_THROW((void)estimate_noise(shape("plane", 0, Sampling::Random, 100), Neighborhoods{}),
-               InvalidArgument);
-}
-
 class Stopped : public Progress {
  public:
   [[nodiscard]] bool cancelled() const override { return true; }
@@ -106,7 +101,7 @@ class Stopped : public Progress {
 TEST(Noise, CanBeCancelled) {
   const PointCloud cloud = shape("plane", 0.1, Sampling::Random, 500);
   Stopped progress;
-  EXPECT_THROW((void)estimate_noise(cloud, find_neighborhoods(cloud, 16), progress), Cancelled);
+  EXPECT_THROW((void)estimate_noise(cloud, NeighborSearch(cloud.positions), progress), Cancelled);
 }
 
 }  // namespace

@@ -1,65 +1,70 @@
 #include "keenline/lines/rim.h"
 
-#include <cmath>
-#include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "support/traced_shapes.h"
+#include "support/uneven_clouds.h"
 
 namespace keenline {
 namespace {
 
-using test::labelled_shape;
+/// A plane side whose x axis is x.
+const Side flat{.surface = {}, .inward = {1, 0, 0}, .residual = 0.02, .support = 50};
 
-TEST(Rim, LiesAlongTheSidesOfASquare) {
-  const auto shape = labelled_shape("plane", 4000, 0.05);
-  const NeighborSearch search(shape.synth.cloud.positions);
-  const TraceFrame frame{{0, 0, 0}, shape.spacing};
-  const RimTracker tracker(shape.synth.cloud, search, shape.labels, frame, no_progress());
-  int found = 0;
-  ASSERT_GT(tracker.size(), 80U);
-  for (std::uint32_t i = 0; i < tracker.size(); ++i) {
-    const auto foot = tracker.find(i);
-    if (!foot) continue;
-    const Point p = frame.global(foot->position);
-    const double from_middle = std::max(std::abs(p[0]), std::abs(p[1]));
-    EXPECT_LT(std::abs(p[2]), 0.2 * shape.spacing);
-    EXPECT_NEAR(length(foot->tangent), 1, 1e-12);
-    EXPECT_NEAR(dot(foot->normals[0], foot->tangent), 0, 1e-12);
-    EXPECT_NEAR(dot(foot->normals[1], foot->tangent), 0, 1e-12);
-    EXPECT_GT(std::abs(foot->normals[0][2]), 0.9);
-    if (std::min(std::abs(p[0]), std::abs(p[1])) > 0.5 - 5 * shape.spacing) continue;  // a corner
-    ++found;
-    EXPECT_NEAR(from_middle, 0.5, 0.6 * shape.spacing);
-    EXPECT_GT(std::max(std::abs(foot->tangent[0]), std::abs(foot->tangent[1])), 0.8);
-  }
-  EXPECT_GT(found, 60);
+double reach_of(const Side& rim, double y) { return rim.surface.above({0, y, 0}); }
+
+TEST(Rim, GoesThroughTheOutermostRowOfALattice) {
+  std::vector<Point> offsets;
+  for (int x = 0; x < 6; ++x)
+    for (int y = -8; y <= 8; ++y) offsets.push_back({0.5 * x - 0.25, 0.5 * y, 0});
+  const auto rim = rim_of(flat, offsets);
+  ASSERT_TRUE(rim);
+  // The surface lies behind it: where the rim is at -0.25, the origin is 0.25 inside.
+  EXPECT_NEAR(reach_of(*rim, 0), -0.25, 1e-12);
+  EXPECT_NEAR(reach_of(*rim, 3), -0.25, 1e-12);
+  EXPECT_EQ(rim->surface.normal({}), (Point{-1, 0, 0}));
+  EXPECT_EQ(rim->inward, (Point{0, 0, -1}));
 }
 
-TEST(Rim, EndsWhereBorderPointsEnd) {
-  SynthOptions options;
-  options.shape = "plane";
-  options.points = 4000;
-  options.feature_band = 1;  // a border point every spacing
-  const auto shape = labelled_shape(options);
-  FeatureLabels labels = shape.labels;
-  const auto& positions = shape.synth.cloud.positions;
-  for (std::size_t i = 0; i < labels.size(); ++i)
-    if (labels.kind[i] == Kind::Border && !(positions[i][1] < -0.4 && std::abs(positions[i][0]) < 0.2))
-      labels.kind[i] = Kind::Flat;
-  const NeighborSearch search(positions);
-  const TraceFrame frame{{0, 0, 0}, shape.spacing};
-  const RimTracker tracker(shape.synth.cloud, search, labels, frame, no_progress());
-  std::optional<Foot> foot;
-  for (std::uint32_t i = 0; !foot && i < tracker.size(); ++i) foot = tracker.find(i);
-  ASSERT_TRUE(foot);
-  for (int step = 0; step < 100; ++step) {
-    const auto next = tracker.follow(*foot, sum(foot->position, scaled(foot->scale, foot->tangent)));
-    if (!next) break;
-    foot = next;
+TEST(Rim, IsHalfWayUnbiasedOnRandomPoints) {
+  double sum = 0;
+  constexpr int trials = 200;
+  for (unsigned trial = 0; trial < trials; ++trial) {
+    std::vector<Point> offsets;
+    for (const Point& p : test::random_points(48, trial))
+      offsets.push_back({6 * p[0], 8 * p[1] - 4, 0.02 * p[2]});  // one per unit of area
+    const auto rim = rim_of(flat, offsets);
+    ASSERT_TRUE(rim);
+    sum += reach_of(*rim, 0);
   }
-  EXPECT_NEAR(std::abs(frame.global(foot->position)[0]), 0.2, 2.5 * shape.spacing);
+  EXPECT_NEAR(sum / trials, 0, 0.15);  // of 0.6 that the outermost points fall short
+}
+
+TEST(Rim, FollowsASlantedEnd) {
+  std::vector<Point> offsets;
+  for (int row = 0; row < 4; ++row)
+    for (int y = -16; y <= 16; ++y) offsets.push_back({0.3 * row + 0.2 * 0.25 * y, 0.25 * y, 0});
+  const auto rim = rim_of(flat, offsets);
+  ASSERT_TRUE(rim);
+  EXPECT_NEAR(reach_of(*rim, 2) - reach_of(*rim, -2), 0.8, 0.1);
+}
+
+TEST(Rim, OtherSheetsHaveNoPartInIt) {
+  std::vector<Point> offsets;
+  for (int x = 0; x < 6; ++x)
+    for (int y = -8; y <= 8; ++y) {
+      offsets.push_back({0.5 * x, 0.5 * y, 0});
+      offsets.push_back({0.5 * x - 3, 0.5 * y, 2});
+    }
+  const auto rim = rim_of(flat, offsets);
+  ASSERT_TRUE(rim);
+  EXPECT_NEAR(reach_of(*rim, 0), 0, 1e-12);
+}
+
+TEST(Rim, NeedsPointsAlongIt) {
+  EXPECT_FALSE(rim_of(flat, {}));
+  EXPECT_FALSE(rim_of(flat, std::vector<Point>(50, Point{1, 0, 0})));
 }
 
 }  // namespace

@@ -56,6 +56,36 @@ TEST(NeighborSearch, KnowsTiesOfManyMoreThanAskedFor) {
   EXPECT_EQ(list(search.all(90).of(0)), test::nearest_by_force(points, 0, 90));
 }
 
+TEST(NeighborSearch, FindsThePointsNearestToAnyPosition) {
+  for (auto [name, points] : test::uneven_clouds()) {
+    SCOPED_TRACE(name);
+    points[11][2] = nan;
+    const NeighborSearch search(points);
+    for (std::size_t i = 0; i < points.size(); i += 9) {
+      const Point& p = points[i];
+      for (const Point& position : {p, Point{p[0] + 0.013, p[1], p[2] - 0.4}, Point{100, 2 * p[0], -p[1]}}) {
+        if (!is_finite(position)) continue;
+        for (const int count : {1, 7, 300}) {
+          ASSERT_EQ(search.nearest_to(position, count),
+                    test::nearest_to_by_force(points, position, static_cast<std::size_t>(count)))
+              << "point " << i << ", " << count << " nearest";
+        }
+      }
+    }
+  }
+}
+
+TEST(NeighborSearch, FindsTheNearestOfVeryLargeAndVerySmallCoordinates) {
+  for (const double scale : {0x1p-700, 0x1p700}) {
+    std::vector<Point> points = test::random_points(500, 10);
+    const std::vector<std::uint32_t> expected = test::nearest_to_by_force(points, {0.25, 0.5, 0.5}, 20);
+    for (Point& p : points)
+      for (double& coordinate : p) coordinate *= scale;
+    const NeighborSearch search(points);
+    EXPECT_EQ(search.nearest_to({0.25 * scale, 0.5 * scale, 0.5 * scale}, 20), expected);
+  }
+}
+
 TEST(NeighborSearch, VisitsEveryFinitePointOnceInTheSameBlocks) {
   std::vector<Point> points = test::random_points(20000, 5);
   for (std::size_t i = 0; i < points.size(); i += 100) points[i][0] = nan;
@@ -125,6 +155,7 @@ TEST(NeighborSearch, RefusesWhatIsOutOfRange) {
   const std::vector<Point> points = test::random_points(10, 9);
   const NeighborSearch search(points);
   EXPECT_THROW((void)search.nearest(10, 8), InvalidArgument);
+  EXPECT_THROW((void)search.nearest_to({0, 0, 0}, 0), InvalidArgument);
   for (const int count : {2, 256}) {
     EXPECT_THROW((void)search.nearest(0, count), InvalidArgument);
     EXPECT_THROW((void)search.all(count), InvalidArgument);
@@ -135,9 +166,12 @@ TEST(NeighborSearch, RefusesWhatIsOutOfRange) {
 TEST(NeighborSearch, MayHaveNothingToSearch) {
   const std::vector<Point> none;
   EXPECT_EQ(NeighborSearch(none).all(8).size(), 0U);
+  EXPECT_TRUE(NeighborSearch(none).nearest_to({0, 0, 0}, 3).empty());
   const std::vector<Point> same(9000, Point{1, 2, 3});
   const NeighborSearch search(same);
   EXPECT_TRUE(search.nearest(5, 8).empty());
+  EXPECT_EQ(search.nearest_to({0, 0, 0}, 3), (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_TRUE(search.nearest_to({nan, 0, 0}, 3).empty());
   EXPECT_TRUE(search.all(8).indices.empty());
 }
 

@@ -17,6 +17,7 @@
 
 #include "keenline/detect/noise.h"
 #include "keenline/errors.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/spacing.h"
 #include "keenline/synth/synth.h"
 
@@ -246,9 +247,9 @@ TEST(Smooth, SwellsARoundSurfaceAsItsHeaderSays) {
 
 TEST(Smooth, LowersTheNoiseThatIsMeasured) {
   PointCloud cloud = shape("torus", 0.4).cloud;
-  const double before = estimate_noise(cloud, find_neighborhoods(cloud, 16));
+  const double before = estimate_noise(cloud, NeighborSearch(cloud.positions));
   cloud.positions = smooth(cloud);
-  EXPECT_LT(estimate_noise(cloud, find_neighborhoods(cloud, 16)), before / 2);
+  EXPECT_LT(estimate_noise(cloud, NeighborSearch(cloud.positions)), before / 2);
 }
 
 // --- invariance

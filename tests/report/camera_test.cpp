@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+#include "keenline/vectors.h"
 
 #include "support/expect_error.h"
 
@@ -31,9 +32,9 @@ TEST(Camera, AxesAreOrthonormalAndRightHanded) {
   for (const double azimuth : {-720.0, -33.0, 0.0, 10.0, 359.0}) {
     for (const double elevation : {-90.0, -20.0, 0.0, 71.0, 90.0}) {
       const auto [right, up, toward] = axes_of({azimuth, elevation});
-      EXPECT_NEAR(dot_product(right, right), 1, 1e-14);
-      EXPECT_NEAR(dot_product(up, up), 1, 1e-14);
-      EXPECT_NEAR(dot_product(right, up), 0, 1e-14);
+      EXPECT_NEAR(dot(right, right), 1, 1e-14);
+      EXPECT_NEAR(dot(up, up), 1, 1e-14);
+      EXPECT_NEAR(dot(right, up), 0, 1e-14);
       expect_near({right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
                    right[0] * up[1] - right[1] * up[0]},
                   toward);

@@ -29,4 +29,22 @@ inline std::vector<std::uint32_t> nearest_by_force(const std::vector<Point>& poi
   return nearest;
 }
 
+/// The `count` points nearest to any position by (distance, index), those at it included.
+/// \pre squares of coordinates neither overflow nor vanish
+inline std::vector<std::uint32_t> nearest_to_by_force(const std::vector<Point>& points, const Point& position,
+                                                      std::size_t count) {
+  std::vector<std::pair<double, std::uint32_t>> all;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& q = points[i];
+    if (!is_finite(q)) continue;
+    const Point d{q[0] - position[0], q[1] - position[1], q[2] - position[2]};
+    all.emplace_back(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], static_cast<std::uint32_t>(i));
+  }
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(count, all.size()));
+  std::vector<std::uint32_t> nearest;
+  for (const auto& [distance, index] : all) nearest.push_back(index);
+  return nearest;
+}
+
 }  // namespace keenline::test

@@ -3,41 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "keenline/cloud.h"
-#include "keenline/detect/crease.h"
-#include "keenline/detect/faces.h"
 #include "keenline/detect/gauss_map.h"
 #include "keenline/detect/isolated.h"
-#include "keenline/detect/peak.h"
+#include "keenline/detect/point_labeler.h"
 #include "keenline/detect/relabel.h"
 #include "keenline/errors.h"
 #include "keenline/kernels/line_angles.h"
-#include "keenline/kernels/symmetric3.h"
 #include "keenline/memory.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
-#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
 using kernels::angle_units_per_degree;
 
-/// Differences of direction below this are of no interest: scores are 0, and such points flat at any
-/// sensitivity.
-constexpr double smallest_angle = 3 * angle_units_per_degree;
-
-void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                    const GaussOptions& options) {
+void require_usable(const GaussOptions& options) {
   const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
     if (!ok) throw InvalidArgument(fmt::format("--{}: found {}, expected {}", name, found, expected));
   };
@@ -50,8 +43,6 @@ void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
   if (options.max_clusters)
     require(*options.max_clusters >= 2 && *options.max_clusters <= 255, "max-clusters", *options.max_clusters,
             "2 to 255");
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
   require(options.min_support >= 0 && options.min_support <= 16, "min-support", options.min_support,
           "0 to 16");
   if (options.persistence)
@@ -60,233 +51,12 @@ void require_usable(const PointCloud& cloud, const Neighborhoods& neighborhoods,
   require(options.min_sine >= 0 && options.min_sine <= 1, "min-sine", options.min_sine, "0 to 1");
 }
 
-/// The labels of one point from the sensitivity `from` up to that of the next step.
-struct Step {
-  std::uint16_t from;
-  Kind kind;
-  std::uint8_t clusters;
-};
-
-/// The smallest sensitivity that reaches a height: merges happen at heights up to the sensitivity.
-std::uint16_t sensitivity_reaching(double height) {
-  return static_cast<std::uint16_t>(std::ceil(std::min(height, double{kernels::right_angle})));
+void require_match(const PointCloud& cloud, const Neighborhoods& neighborhoods) {
+  if (neighborhoods.size() != cloud.size())
+    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
 }
 
-/// Everything that the Gauss map of one point says, for all sensitivities at once; every thread has its own.
-class PointLabeler {
- public:
-  PointLabeler(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GaussOptions& options,
-               const Progress& progress)
-      : cloud_(cloud),
-        neighborhoods_(neighborhoods),
-        options_(options),
-        max_clusters_(options.max_clusters.value_or(options.plain ? 4 : 6)),
-        sizes_(neighborhood_sizes(options.neighbors, options.plain ? 1 : options.scales)),
-        persistence_(options.persistence.value_or(options.thin ? 3 : 2)),
-        map_(options.min_sine, progress) {}
-
-  /// Afterwards the others are those of the point.
-  void label(std::size_t point) {
-    // The first size last: score and map are its.
-    views_.resize(sizes_.size());
-    for (std::size_t s = sizes_.size(); s-- > 0;) {
-      look(point, sizes_[s]);
-      if (sizes_.size() > 1) views_[s] = steps_;
-    }
-    if (sizes_.size() > 1) combine_views();
-  }
-
-  [[nodiscard]] std::span<const Step> steps() const { return steps_; }
-  /// Of the two faces that are told apart best.
-  [[nodiscard]] CreaseDirection direction() const {
-    if (faces_.size() < 2) return {};
-    const Point along = cross(faces_[0].normal, faces_[1].normal);
-    return length(along) > 0 ? quantized(unit(along)) : CreaseDirection{};
-  }
-  /// The largest angle at which two significant clusters become one, in degrees.
-  [[nodiscard]] float score() const { return score_; }
-  /// Lines of a significant cluster.
-  [[nodiscard]] int min_cluster() const { return min_cluster_; }
-  /// Clustered, whether the label took it or not.
-  [[nodiscard]] const GaussMap& clustered_map() {
-    if (map_.merges().empty() && map_.lines().count > 1) map_.cluster();
-    return map_;
-  }
-
- private:
-  /// Labels the point by that many neighbours.
-  void look(std::size_t point, int size) {
-    steps_.clear();
-    faces_.clear();
-    score_ = 0;
-    map_.clear();
-    const auto neighbors = neighborhoods_.of(point);
-    if (neighbors.size() < static_cast<std::size_t>(size)) {
-      steps_.push_back({0, Kind::Undecided, 0});
-      return;
-    }
-    map_.collect(cloud_.positions, cloud_.positions[point], neighbors.first(static_cast<std::size_t>(size)));
-    const int lines = map_.lines().count;
-    min_cluster_ = options_.min_cluster.value_or(std::max(3, (lines + 9) / 10));
-    if (lines < 3) {
-      steps_.push_back({0, Kind::Flat, 0});
-      return;
-    }
-    if (!options_.plain && lines >= min_cluster_ &&
-        kernels::all_within(map_.lines(), std::min(smallest_angle, unresolved_angle(persistence_)) - 2)) {
-      const Face face = lone_face(map_);
-      steps_.push_back({0, face.is_half ? Kind::Border : Kind::Flat, 1});
-      return;
-    }
-    map_.cluster();
-    score_ = sharpness_deg();
-    if (options_.plain) count_clusters();
-    else read_faces();
-  }
-
-  /// At every sensitivity the majority of the sizes decides whether the point is sharp, the first of those
-  /// that agree what it is. Sizes for which there are too few points have no say.
-  void combine_views() {
-    if (views_[0][0].kind == Kind::Undecided) {
-      steps_ = views_[0];
-      return;
-    }
-    std::erase_if(views_, [](const std::vector<Step>& view) { return view[0].kind == Kind::Undecided; });
-    changes_.clear();
-    for (const std::vector<Step>& view : views_)
-      for (const Step& step : view) changes_.push_back({step.from, 0});
-    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
-    steps_.clear();
-    for (const Change& change : changes_) {
-      const auto step_of = [&](const std::vector<Step>& view) {
-        return *std::find_if(view.rbegin(), view.rend(), [&](const Step& s) { return s.from <= change.at; });
-      };
-      const auto sharp = std::count_if(views_.begin(), views_.end(),
-                                       [&](const auto& view) { return is_feature(step_of(view).kind); });
-      const bool is_sharp = 2 * sharp > static_cast<std::ptrdiff_t>(views_.size());
-      const auto agrees = std::find_if(views_.begin(), views_.end(), [&](const auto& view) {
-        return is_feature(step_of(view).kind) == is_sharp;
-      });
-      const Step step = step_of(*agrees);
-      push_step({change.at, step.kind, step.clusters});
-    }
-  }
-
-  [[nodiscard]] bool is_significant(std::uint32_t size) const {
-    return size >= static_cast<std::uint32_t>(min_cluster_);
-  }
-
-  [[nodiscard]] float sharpness_deg() {
-    sharpness_ = 0;
-    for (const kernels::Merge& merge : map_.merges())
-      if (is_significant(std::min(merge.first_size, merge.second_size)))
-        sharpness_ = std::max(sharpness_, merge.height);
-    if (sharpness_ <= smallest_angle) sharpness_ = 0;
-    return static_cast<float>(sharpness_ / angle_units_per_degree);
-  }
-
-  /// Section 4 of the paper: the number of significant clusters when merging stops at the sensitivity.
-  void count_clusters() {
-    changes_.clear();
-    for (const kernels::Merge& merge : map_.merges()) {
-      const int change = static_cast<int>(is_significant(merge.first_size + merge.second_size)) -
-                         static_cast<int>(is_significant(merge.first_size)) -
-                         static_cast<int>(is_significant(merge.second_size));
-      if (change != 0) changes_.push_back({sensitivity_reaching(merge.height), change});
-    }
-    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
-    int count = is_significant(1) ? map_.lines().count : 0;
-    push_plain_step(0, count);
-    for (std::size_t i = 0; i < changes_.size(); ++i) {
-      count += changes_[i].change;
-      if (i + 1 == changes_.size() || changes_[i + 1].at != changes_[i].at)
-        push_plain_step(changes_[i].at, count);
-    }
-  }
-
-  void push_plain_step(std::uint16_t from, int clusters) {
-    Kind kind = Kind::Curved;
-    if (clusters == 1) kind = Kind::Flat;
-    else if (clusters == 2) kind = Kind::Edge;
-    else if (clusters > 2 && clusters <= max_clusters_) kind = Kind::Corner;
-    push_step({from, kind, static_cast<std::uint8_t>(std::min(clusters, 255))});
-  }
-
-  /// The refined decision: which faces are there at the sensitivity, and do they all end here?
-  void read_faces() {
-    find_faces(map_, min_cluster_, persistence_, workspace_, faces_);
-    is_peak_ = sharpness_ > 0 && is_peak(map_);
-    // Every decision that asks for it begins with the first two faces, and asks whether they end first.
-    is_beside_ = options_.thin && faces_.size() > 1 && faces_[0].ends && faces_[1].ends &&
-                 is_beside_crease(map_, faces_);
-    // Everything that the decision depends on changes at the deaths of faces and at the height where all
-    // significant lines have become one direction.
-    changes_.clear();
-    changes_.push_back({0, 0});
-    changes_.push_back({sensitivity_reaching(sharpness_), 0});
-    for (const Face& face : faces_)
-      if (std::isfinite(face.death)) changes_.push_back({sensitivity_reaching(face.death), 0});
-    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
-    for (const Change& change : changes_) {
-      std::size_t count = 0;  // faces_ is sorted by falling death
-      while (count < faces_.size() && faces_[count].death > change.at) ++count;
-      push_step({change.at, kind_of(std::span(faces_).first(count), change.at),
-                 static_cast<std::uint8_t>(std::min<std::size_t>(count, 255))});
-    }
-  }
-
-  [[nodiscard]] Kind kind_of(std::span<const Face> faces, std::uint16_t sensitivity) const {
-    // Before the faces: the lines of a peak gather in some by chance.
-    if (is_peak_ && sharpness_ > sensitivity) return Kind::Peak;
-    if (faces.size() == 1) {
-      if (faces[0].is_half) return Kind::Border;
-      return sharpness_ <= sensitivity ? Kind::Flat : Kind::Curved;
-    }
-    if (faces.empty() || faces.size() > static_cast<std::size_t>(max_clusters_)) return Kind::Curved;
-    const auto ends = [](const Face& face) { return face.ends; };
-    if (options_.thin && (is_beside_ || !std::all_of(faces.begin(), faces.end(), ends))) return Kind::Curved;
-    return faces.size() > 2 && span_space(faces) ? Kind::Corner : Kind::Edge;
-  }
-
-  /// The normals along an edge between curved faces all lie in one plane, those at a corner do not.
-  [[nodiscard]] static bool span_space(std::span<const Face> faces) {
-    kernels::Symmetric3 tensor;
-    for (const Face& face : faces)
-      kernels::add_outer_product(tensor, face.normal[0], face.normal[1], face.normal[2]);
-    constexpr double smallest = 0.12;  // twice the squared sine of 14 degrees: two normals 28 degrees apart
-    return kernels::eigen_decomposition(tensor).values[2] > smallest;
-  }
-
-  /// Steps that change nothing are left out; of several from one sensitivity the last counts.
-  void push_step(const Step& step) {
-    if (!steps_.empty() && steps_.back().from == step.from) steps_.pop_back();
-    if (!steps_.empty() && steps_.back().kind == step.kind && steps_.back().clusters == step.clusters) return;
-    steps_.push_back(step);
-  }
-
-  struct Change {
-    std::uint16_t at;
-    int change;
-  };
-
-  const PointCloud& cloud_;
-  const Neighborhoods& neighborhoods_;
-  const GaussOptions& options_;
-  int max_clusters_;
-  std::vector<int> sizes_;
-  double persistence_;
-  GaussMap map_;
-  FaceWorkspace workspace_;
-  std::vector<Face> faces_;
-  std::vector<Change> changes_;
-  std::vector<Step> steps_;
-  std::vector<std::vector<Step>> views_;  // the steps at each of sizes_
-  int min_cluster_ = 0;
-  double sharpness_ = 0;
-  float score_ = 0;
-  bool is_peak_ = false;
-  bool is_beside_ = false;
-};
+bool filters_isolated(const GaussOptions& options) { return !options.plain && options.min_support > 0; }
 
 /// For each line the smallest line of the cluster that it is in when merging stops at the sensitivity.
 std::vector<std::uint32_t> clusters_of_lines(const GaussMap& map, std::uint16_t sensitivity) {
@@ -298,12 +68,88 @@ std::vector<std::uint32_t> clusters_of_lines(const GaussMap& map, std::uint16_t 
   return names;
 }
 
-constexpr std::size_t block_size = 1024;
+/// Calls a function with all points, in blocks, and the neighbours of each.
+using ForEachBlock = std::function<void(const NeighborSearch::Visit& visit)>;
 
-/// Labels all points on all threads; every block of points has its own list of steps, joined in order.
-LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                           const GaussOptions& options, Progress& progress, std::vector<float>& score,
-                           std::vector<CreaseDirection>& directions) {
+/// Blocks of a table, in its order.
+void for_each_block(const Neighborhoods& table, const NeighborSearch::Visit& visit, Progress& progress) {
+  constexpr std::size_t block_size = 1024;
+  const std::size_t blocks = (table.size() + block_size - 1) / block_size;
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t first = b * block_size;
+    std::vector<std::uint32_t> points(std::min(block_size, table.size() - first));
+    std::iota(points.begin(), points.end(), static_cast<std::uint32_t>(first));
+    Neighborhoods block;
+    for (const std::uint32_t point : points) {
+      const auto neighbors = table.of(point);
+      block.indices.insert(block.indices.end(), neighbors.begin(), neighbors.end());
+      block.offsets.push_back(block.indices.size());
+    }
+    visit(points, block);
+    progress.advance(points.size());
+  });
+}
+
+/// What was found out about the points of a block.
+struct LabeledBlock {
+  std::vector<std::uint32_t> points;
+  std::vector<std::uint16_t> step_counts;  // of each point
+  std::vector<LabelStep> steps;            // of all, one point after the other
+  std::vector<std::uint32_t> supporters;   // neighbours of those that need support, likewise
+  std::vector<std::uint16_t> supporter_counts;
+};
+
+/// What was found out about all points.
+struct LabeledPoints {
+  LabelSpectrum spectrum;
+  std::vector<float> score;
+  std::vector<CreaseDirection> directions;
+  Neighborhoods supporters;  ///< of points that need support; empty for the others
+};
+
+/// Brings what the blocks hold into the order of the points; a point of no block is undecided.
+void join_blocks(std::vector<LabeledBlock>& blocks, LabeledPoints& labeled) {
+  LabelSpectrum& spectrum = labeled.spectrum;
+  Neighborhoods& supporters = labeled.supporters;
+  const std::size_t count = labeled.score.size();
+  spectrum.offsets.assign(count + 1, 1);
+  spectrum.offsets[0] = 0;
+  supporters.offsets.assign(count + 1, 0);
+  for (const LabeledBlock& block : blocks) {
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      spectrum.offsets[block.points[i] + 1] = block.step_counts[i];
+      supporters.offsets[block.points[i] + 1] = block.supporter_counts[i];
+    }
+  }
+  std::partial_sum(spectrum.offsets.begin(), spectrum.offsets.end(), spectrum.offsets.begin());
+  std::partial_sum(supporters.offsets.begin(), supporters.offsets.end(), supporters.offsets.begin());
+  spectrum.from.assign(spectrum.offsets[count], 0);
+  spectrum.kind.assign(spectrum.offsets[count], Kind::Undecided);
+  spectrum.clusters.assign(spectrum.offsets[count], 0);
+  supporters.indices.resize(supporters.offsets[count]);
+  for (LabeledBlock& block : blocks) {
+    auto step = block.steps.begin();
+    auto supporter = block.supporters.begin();
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      const std::size_t first = spectrum.offsets[block.points[i]];
+      for (std::size_t s = first; s < first + block.step_counts[i]; ++s, ++step) {
+        spectrum.from[s] = step->from;
+        spectrum.kind[s] = step->kind;
+        spectrum.clusters[s] = step->clusters;
+      }
+      const auto next = supporter + block.supporter_counts[i];
+      std::copy(
+          supporter, next,
+          supporters.indices.begin() + static_cast<std::ptrdiff_t>(supporters.offsets[block.points[i]]));
+      supporter = next;
+    }
+    block = {};  // no two copies of everything at once
+  }
+}
+
+/// Labels all points on all threads.
+LabeledPoints label_points(const PointCloud& cloud, const ForEachBlock& for_each, const GaussOptions& options,
+                           Progress& progress) {
   const std::size_t count = cloud.size();
   const std::vector<int> sizes = neighborhood_sizes(options.neighbors, options.scales);
   const std::uint64_t memory = GaussMap::memory(*std::max_element(sizes.begin(), sizes.end()));
@@ -312,54 +158,71 @@ LabelSpectrum label_points(const PointCloud& cloud, const Neighborhoods& neighbo
   require_memory(threads * memory, fmt::format("Gauss map clustering with {} neighbors on {} threads",
                                                options.neighbors, threads));
   tbb::enumerable_thread_specific<PointLabeler> labelers(
-      [&] { return PointLabeler(cloud, neighborhoods, options, progress); });
-  const std::size_t blocks = (count + block_size - 1) / block_size;
-  std::vector<std::vector<Step>> steps(blocks);
-  LabelSpectrum spectrum;
-  spectrum.offsets.resize(count + 1);
-  score.resize(count);
-  directions.resize(count);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, blocks, 1), [&](const tbb::blocked_range<std::size_t>& range) {
-        PointLabeler& labeler = labelers.local();
-        for (std::size_t block = range.begin(); block < range.end(); ++block) {
-          const std::size_t end = std::min(count, (block + 1) * block_size);
-          for (std::size_t i = block * block_size; i < end; ++i) {
-            progress.check();
-            labeler.label(i);
-            score[i] = labeler.score();
-            // Across a band, too, one point continues another.
-            if (options.thin) directions[i] = labeler.direction();
-            spectrum.offsets[i + 1] = labeler.steps().size();
-            steps[block].insert(steps[block].end(), labeler.steps().begin(), labeler.steps().end());
-          }
-          progress.advance(end - block * block_size);
-        }
-      });
-  for (std::size_t i = 0; i < count; ++i) spectrum.offsets[i + 1] += spectrum.offsets[i];
-  spectrum.from.reserve(spectrum.offsets[count]);
-  spectrum.kind.reserve(spectrum.offsets[count]);
-  spectrum.clusters.reserve(spectrum.offsets[count]);
-  for (std::vector<Step>& block : steps) {
-    for (const Step& step : block) {
-      spectrum.from.push_back(step.from);
-      spectrum.kind.push_back(step.kind);
-      spectrum.clusters.push_back(step.clusters);
+      [&] { return PointLabeler(cloud, options, progress); });
+  tbb::enumerable_thread_specific<std::vector<LabeledBlock>> blocks;
+  LabeledPoints labeled;
+  labeled.score.resize(count);
+  labeled.directions.resize(count);
+  const bool filtered = filters_isolated(options);
+  for_each([&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+    PointLabeler& labeler = labelers.local();
+    LabeledBlock block;
+    block.points.assign(points.begin(), points.end());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      progress.check();
+      const std::span<const std::uint32_t> neighbors = neighborhoods.of(i);
+      labeler.label(points[i], neighbors);
+      labeled.score[points[i]] = labeler.score();
+      // Across a band, too, one point continues another.
+      if (options.thin) labeled.directions[points[i]] = labeler.direction();
+      block.steps.insert(block.steps.end(), labeler.steps().begin(), labeler.steps().end());
+      block.step_counts.push_back(static_cast<std::uint16_t>(labeler.steps().size()));
+      const bool has_supporters = filtered && labeler.ever_needs_support();
+      const auto supporters =
+          neighbors.first(has_supporters ? std::min(neighbors.size(), neighbors_that_support) : 0);
+      block.supporters.insert(block.supporters.end(), supporters.begin(), supporters.end());
+      block.supporter_counts.push_back(static_cast<std::uint16_t>(supporters.size()));
     }
-    std::vector<Step>().swap(block);
+    block.steps.shrink_to_fit();
+    block.supporters.shrink_to_fit();
+    blocks.local().push_back(std::move(block));
+  });
+  std::vector<LabeledBlock> all;
+  for (std::vector<LabeledBlock>& part : blocks) {
+    std::move(part.begin(), part.end(), std::back_inserter(all));
+    part.clear();
   }
-  return spectrum;
+  join_blocks(all, labeled);
+  return labeled;
 }
 
-LabelSpectrum spectrum_of_one(std::span<const Step> steps) {
+LabelSpectrum spectrum_of_one(std::span<const LabelStep> steps) {
   LabelSpectrum spectrum;
-  for (const Step& step : steps) {
+  for (const LabelStep& step : steps) {
     spectrum.from.push_back(step.from);
     spectrum.kind.push_back(step.kind);
     spectrum.clusters.push_back(step.clusters);
   }
   spectrum.offsets.push_back(steps.size());
   return spectrum;
+}
+
+FeatureLabels detect_in_blocks(const PointCloud& cloud, const ForEachBlock& for_each,
+                               const GaussOptions& options, Progress& progress) {
+  require_usable(options);
+  progress.begin("gauss", cloud.size());
+  LabeledPoints labeled = label_points(cloud, for_each, options, progress);
+  LabelSpectrum& spectrum = labeled.spectrum;
+  if (filters_isolated(options)) {
+    spectrum = without_isolated(spectrum, labeled.supporters, cloud.positions, labeled.directions,
+                                options.min_support, progress);
+  }
+  const bool is_the_papers = options.plain && options.sigma_rule == SigmaRule::Auto;
+  FeatureLabels labels = is_the_papers ? relabel(spectrum, default_sigma_deg)
+                                       : relabel(spectrum, options.sigma_rule, options.sigma_deg, progress);
+  labels.score = std::move(labeled.score);
+  if (options.keep_spectrum) labels.spectrum = std::move(spectrum);
+  return labels;
 }
 
 }  // namespace
@@ -378,33 +241,32 @@ std::vector<int> neighborhood_sizes(int neighbors, int scales) {
 
 FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                            const GaussOptions& options, Progress& progress) {
-  require_usable(cloud, neighborhoods, options);
-  progress.begin("gauss", cloud.size());
-  std::vector<float> score;
-  std::vector<CreaseDirection> directions;
-  LabelSpectrum spectrum = label_points(cloud, neighborhoods, options, progress, score, directions);
-  if (!options.plain && options.min_support > 0)
-    spectrum =
-        without_isolated(spectrum, neighborhoods, cloud.positions, directions, options.min_support, progress);
-  const bool is_the_papers = options.plain && options.sigma_rule == SigmaRule::Auto;
-  FeatureLabels labels = is_the_papers ? relabel(spectrum, default_sigma_deg)
-                                       : relabel(spectrum, options.sigma_rule, options.sigma_deg, progress);
-  labels.score = std::move(score);
-  if (options.keep_spectrum) labels.spectrum = std::move(spectrum);
-  return labels;
+  require_match(cloud, neighborhoods);
+  return detect_in_blocks(
+      cloud, [&](const auto& visit) { for_each_block(neighborhoods, visit, progress); }, options, progress);
+}
+
+FeatureLabels detect_gauss(const PointCloud& cloud, const NeighborSearch& search, const GaussOptions& options,
+                           Progress& progress) {
+  require_usable(options);
+  const std::vector<int> sizes = neighborhood_sizes(options.neighbors, options.scales);
+  const int most = *std::max_element(sizes.begin(), sizes.end());
+  return detect_in_blocks(
+      cloud, [&](const auto& visit) { search.for_each_block(most, visit, progress); }, options, progress);
 }
 
 PointGaussMap gauss_map(const PointCloud& cloud, const Neighborhoods& neighborhoods, std::size_t point,
                         const GaussOptions& options, Progress& progress) {
-  require_usable(cloud, neighborhoods, options);
+  require_usable(options);
+  require_match(cloud, neighborhoods);
   if (point >= cloud.size())
     throw InvalidArgument(fmt::format("point {} of a cloud of {} points", point, cloud.size()));
   PointGaussMap result;
   result.sigma_deg = options.sigma_deg;
   if (options.sigma_rule == SigmaRule::Auto)
     result.sigma_deg = detect_gauss(cloud, neighborhoods, options, progress).sigma_deg;
-  PointLabeler labeler(cloud, neighborhoods, options, progress);
-  labeler.label(point);
+  PointLabeler labeler(cloud, options, progress);
+  labeler.label(point, neighborhoods.of(point));
   const LabelSpectrum own = spectrum_of_one(labeler.steps());
   const bool is_local = options.sigma_rule == SigmaRule::Local;
   const std::uint16_t sensitivity = is_local ? local_sensitivity(own, 0) : sensitivity_of(result.sigma_deg);

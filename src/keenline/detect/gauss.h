@@ -12,6 +12,7 @@
 
 namespace keenline {
 
+class NeighborSearch;
 struct Neighborhoods;
 struct PointCloud;
 
@@ -71,6 +72,12 @@ struct GaussOptions {
 /// per thread up to k = 32, 2 k^4 above; about 20 bytes a point. \pre neighborhoods.size() == cloud.size()
 /// \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
 [[nodiscard]] FeatureLabels detect_gauss(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                                         const GaussOptions& options = {},
+                                         Progress& progress = no_progress());
+
+/// The same, with neighbours found as they are needed: there never is a table of all. Memory: about 60 bytes
+/// a point at most. \pre the search is that of cloud.positions
+[[nodiscard]] FeatureLabels detect_gauss(const PointCloud& cloud, const NeighborSearch& search,
                                          const GaussOptions& options = {},
                                          Progress& progress = no_progress());
 

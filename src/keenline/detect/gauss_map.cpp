@@ -6,6 +6,7 @@
 #include "keenline/errors.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/kernels/triangle_lines.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 
@@ -18,7 +19,7 @@ void GaussMap::collect(const std::vector<Point>& positions, const Point& p,
   lengths_.clear();
   for (Point& offset : offsets_) {
     for (double& coordinate : offset) coordinate = std::ldexp(coordinate, exponent);
-    lengths_.push_back(std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]));
+    lengths_.push_back(length(offset));
   }
   find_lines();
 }

@@ -9,11 +9,11 @@
 
 #include "keenline/detect/relabel.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
-constexpr std::size_t neighbors_that_support = 16;
 constexpr std::size_t block_size = 4096;
 
 struct Steps {
@@ -28,9 +28,6 @@ struct Steps {
   }
 };
 
-/// A peak stands by itself.
-bool needs_support(Kind kind) { return (is_feature(kind) && kind != Kind::Peak) || kind == Kind::Border; }
-
 /// Everything that the filter looks at.
 struct Cloud {
   const LabelSpectrum& spectrum;
@@ -44,12 +41,11 @@ struct Cloud {
 bool runs_along(const Point& way, Kind kind, const CreaseDirection& direction) {
   const Point d{static_cast<double>(direction.x), static_cast<double>(direction.y),
                 static_cast<double>(direction.z)};
-  const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const double square = dot(d, d);
   if (kind != Kind::Edge || square == 0) return true;
   constexpr double smallest_square_of_cosine = 0.67101007166283433;  // 35 degrees
-  const double product = way[0] * d[0] + way[1] * d[1] + way[2] * d[2];
-  const double way_square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-  return product * product >= smallest_square_of_cosine * square * way_square;
+  const double product = dot(way, d);
+  return product * product >= smallest_square_of_cosine * square * dot(way, way);
 }
 
 /// Its direction, with a largest coordinate of 1: squares of the largest and smallest clouds leave the range
@@ -148,10 +144,11 @@ LabelSpectrum without_isolated(const LabelSpectrum& spectrum, const Neighborhood
   result.from.reserve(result.offsets[count]);
   result.kind.reserve(result.offsets[count]);
   result.clusters.reserve(result.offsets[count]);
-  for (const Steps& part : parts) {
+  for (Steps& part : parts) {
     result.from.insert(result.from.end(), part.from.begin(), part.from.end());
     result.kind.insert(result.kind.end(), part.kind.begin(), part.kind.end());
     result.clusters.insert(result.clusters.end(), part.clusters.begin(), part.clusters.end());
+    part = {};  // no two copies of everything at once
   }
   return result;
 }

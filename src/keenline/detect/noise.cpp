@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -13,14 +12,13 @@
 #include "keenline/cloud.h"
 #include "keenline/detect/faces.h"
 #include "keenline/detect/gauss_map.h"
-#include "keenline/errors.h"
 #include "keenline/kernels/line_angles.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 
 namespace keenline {
 namespace {
 
-constexpr std::size_t neighbors_to_use = 16;
+constexpr int neighbors_to_use = 16;
 constexpr double no_lines = std::numeric_limits<double>::infinity();
 
 /// The angle, in degrees, within which the densest tenth of the lines at a point lies.
@@ -36,9 +34,7 @@ double scatter_deg(GaussMap& map, FaceWorkspace& workspace, std::vector<Face>& f
 
 }  // namespace
 
-double estimate_noise(const PointCloud& cloud, const Neighborhoods& neighborhoods, Progress& progress) {
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
+double estimate_noise(const PointCloud& cloud, const NeighborSearch& search, Progress& progress) {
   constexpr std::size_t largest_sample = 2048;
   const std::size_t step = (cloud.size() + largest_sample - 1) / largest_sample;
   const std::size_t count = step == 0 ? 0 : (cloud.size() + step - 1) / step;
@@ -56,10 +52,10 @@ double estimate_noise(const PointCloud& cloud, const Neighborhoods& neighborhood
                       Workspace& workspace = workspaces.local();
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
                         progress.check();
-                        const auto neighbors = neighborhoods.of(i * step);
+                        const auto point = static_cast<std::uint32_t>(i * step);
+                        const std::vector<std::uint32_t> neighbors = search.nearest(point, neighbors_to_use);
                         if (neighbors.size() < 3) continue;
-                        workspace.map.collect(cloud.positions, cloud.positions[i * step],
-                                              neighbors.first(std::min(neighbors.size(), neighbors_to_use)));
+                        workspace.map.collect(cloud.positions, cloud.positions[point], neighbors);
                         scatters[i] = scatter_deg(workspace.map, workspace.faces, workspace.found);
                       }
                     });

@@ -4,7 +4,7 @@
 
 namespace keenline {
 
-struct Neighborhoods;
+class NeighborSearch;
 struct PointCloud;
 
 /// The standard deviation of the points from their surface, as a multiple of the spacing around each: about 0
@@ -15,9 +15,9 @@ struct PointCloud;
 /// that angle over at most 2,048 points, evenly spread over the cloud's order, is 14.4 degrees times the
 /// noise for little noise; the curve was measured on planes with normally distributed noise of 0.05 to 0.5
 /// spacings and holds there within 15 %; above, the estimate saturates at about twice the spacing. Threads:
-/// any number, same bits. Cost: about 0.2 s of one core. \pre neighborhoods.size() == cloud.size() \throw
+/// any number, same bits. Cost: about 0.2 s of one core. \pre the search is that of cloud.positions \throw
 /// Cancelled
-[[nodiscard]] double estimate_noise(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+[[nodiscard]] double estimate_noise(const PointCloud& cloud, const NeighborSearch& search,
                                     Progress& progress = no_progress());
 
 }  // namespace keenline

@@ -12,9 +12,11 @@
 
 namespace keenline {
 
+struct DemarsinOptions;
 struct GaussOptions;
-struct Neighborhoods;
+class NeighborSearch;
 struct PointCloud;
+struct TensorVotingOptions;
 
 /// One option of a method, stated once: the command line, bindings and docs take it from here.
 struct OptionInfo {
@@ -53,9 +55,10 @@ struct Method {
   void (*adapt)(OptionValues& values, double noise, std::size_t points);
   /// Do the values ask for the published method and nothing else? Then its points are not smoothed either.
   bool (*is_plain)(const OptionValues& values);
-  /// `values` holds every option of the method (see resolve_options); it comes back with what was chosen from
+  /// The search is that of cloud.positions. `values` holds every option of the method (see resolve_options);
+  /// it comes back with what was chosen from
   /// the data.
-  FeatureLabels (*detect)(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
+  FeatureLabels (*detect)(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
                           Progress& progress);
 };
 
@@ -80,5 +83,11 @@ struct Method {
 
 /// \pre values hold every option of the method gauss (see resolve_options)
 [[nodiscard]] GaussOptions gauss_options_from(const OptionValues& values);
+
+/// \pre values hold every option of the method demarsin
+[[nodiscard]] DemarsinOptions demarsin_options_from(const OptionValues& values);
+
+/// \pre values hold every option of the method tensor_voting
+[[nodiscard]] TensorVotingOptions tensor_voting_options_from(const OptionValues& values);
 
 }  // namespace keenline

@@ -12,6 +12,7 @@
 
 #include "keenline/errors.h"
 #include "keenline/evaluate/segment_tree.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -19,23 +20,6 @@ namespace {
 constexpr double samples_per_spacing = 10;
 constexpr double spacings_per_diagonal = 200;  // where no spacing is given
 constexpr double most_samples = 1e6;
-
-double distance(const Point& a, const Point& b) {
-  const Point d{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-}
-
-GraphCounts counts_of(const FeatureGraph& graph) {
-  GraphCounts counts;
-  counts.corners = graph.corners.size();
-  counts.polylines = graph.polylines.size();
-  for (const Polyline& line : graph.polylines) {
-    counts.length += length_of(line);
-    if (line.closed) ++counts.loops;
-    else counts.loose_ends += (line.start_corner ? 0U : 1U) + (line.end_corner ? 0U : 1U);
-  }
-  return counts;
-}
 
 double diagonal_of(const FeatureGraph& graph) {
   const Extent extent = extent_of(graph);

@@ -14,15 +14,6 @@ struct GraphComparisonOptions {
   std::optional<double> spacing;
 };
 
-/// What a graph consists of.
-struct GraphCounts {
-  double length = 0;  ///< of all polylines together
-  std::size_t corners = 0;
-  std::size_t polylines = 0;
-  std::size_t loops = 0;       ///< closed polylines
-  std::size_t loose_ends = 0;  ///< ends of open polylines that lie in no corner
-};
-
 /// Distances from everything of one kind to the nearest of the other.
 struct Deviation {
   double mean = 0;

@@ -1,40 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
+#include <span>
 
-#include "keenline/cloud.h"
-#include "keenline/labels.h"
-#include "keenline/lines/foot.h"
-#include "keenline/lines/tracker.h"
-#include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/lines/find_sides.h"
 
 namespace keenline {
 
-/// Finds the rim of an open surface among the points that the detector took for border: a straight line
-/// fitted to the 12 of them around. Its planes are that of the surface and the one that ends it.
-class RimTracker : public Tracker {
- public:
-  /// What is given must outlive this. \throw OutOfMemory; Cancelled
-  RimTracker(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
-             const TraceFrame& frame, const Progress& progress);
-
-  /// The border points, by which the feet and find() are numbered.
-  [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-  [[nodiscard]] std::optional<Foot> find(std::uint32_t border_point) const override;
-  [[nodiscard]] std::optional<Foot> follow(const Foot& from, const Point& expected) const override;
-
- private:
-  [[nodiscard]] std::optional<Foot> fit(std::uint32_t border_point, const Point& expected) const;
-
-  const PointCloud& cloud_;
-  const NeighborSearch& search_;
-  TraceFrame frame_;
-  std::vector<std::uint32_t> points_;  // of the cloud
-  std::vector<Point> positions_;
-  NeighborSearch rim_search_;
-};
+/// Where the surface of `side` ends, as a wall that stands upright on its rim. Along the rim the outermost
+/// two points of every 1.6 spacings say where it ends: as far beyond the first as that is beyond the second
+/// (Robson and Whitlock 1964, "Estimation of a truncation point"), half of what one random point falls
+/// short. A line of least squares goes through these ends. Nothing unless three pieces have two points.
+/// \param offsets from the origin of the surface, in its spacings
+[[nodiscard]] std::optional<Side> rim_of(const Side& side, std::span<const Point> offsets);
 
 }  // namespace keenline

@@ -15,7 +15,7 @@
 #include "keenline/errors.h"
 #include "keenline/lines/foot_grid.h"
 #include "keenline/lines/junctions.h"
-#include "keenline/lines/rim.h"
+#include "keenline/lines/rim_tracker.h"
 #include "keenline/lines/walk.h"
 #include "keenline/lines/wedge.h"
 

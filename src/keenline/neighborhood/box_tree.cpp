@@ -11,8 +11,6 @@
 #include <oneapi/tbb/parallel_reduce.h>
 #include <oneapi/tbb/parallel_sort.h>
 
-#include "keenline/neighborhood/safe_scale.h"
-
 namespace keenline {
 namespace {
 
@@ -243,12 +241,11 @@ class TreeBuilder {
 }  // namespace
 
 BoxTree::BoxTree(const std::vector<Point>& positions, const Progress& progress)
-    : positions_(positions.data()) {
+    : exponent_(safe_exponent(positions)), positions_(positions.data()) {
   progress.check();
-  const int exponent = safe_exponent(positions);
-  if (exponent != 0) {
+  if (exponent_ != 0) {
     scaled_.reserve(positions.size());
-    for (const Point& p : positions) scaled_.push_back(is_finite(p) ? safely_scaled(p, exponent) : p);
+    for (const Point& p : positions) scaled_.push_back(is_finite(p) ? scaled(p) : p);
     positions_ = scaled_.data();
   }
   const std::vector<Entry> entries = sorted_along_curve(positions, positions_, progress);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "keenline/cloud.h"
+#include "keenline/neighborhood/safe_scale.h"
 #include "keenline/progress.h"
 
 namespace keenline {
@@ -62,8 +63,13 @@ class BoxTree {
   [[nodiscard]] std::optional<std::uint32_t> location_of(std::uint32_t point) const;
   /// Scaled, if that was needed: distances between these square safely.
   [[nodiscard]] const Point& position_of(std::uint32_t point) const { return positions_[point]; }
+  /// Any finite position of space as position_of() would give it.
+  [[nodiscard]] Point scaled(const Point& position) const {
+    return exponent_ == 0 ? position : safely_scaled(position, exponent_);
+  }
 
  private:
+  int exponent_;
   std::vector<Point> scaled_;  // empty where the cloud's own coordinates will do
   const Point* positions_;
   std::vector<std::uint32_t> points_;

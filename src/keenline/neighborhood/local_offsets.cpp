@@ -11,8 +11,7 @@ bool LocalOffsets::gather(const std::vector<Point>& positions, std::size_t point
   offsets_.clear();
   double largest = 0;
   for (const std::uint32_t neighbor : neighbors) {
-    const Point& q = positions[neighbor];
-    const Point offset{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    const Point offset = difference(positions[neighbor], p);
     largest = std::max({largest, std::abs(offset[0]), std::abs(offset[1]), std::abs(offset[2])});
     offsets_.push_back(offset);
   }
@@ -33,7 +32,7 @@ kernels::Symmetric3 scatter_of(std::span<const Point> offsets) {
     for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += offset[axis] / count;
   kernels::Symmetric3 scatter;
   add_square(scatter, mean, 1);
-  for (const Point& o : offsets) add_square(scatter, {o[0] - mean[0], o[1] - mean[1], o[2] - mean[2]}, 1);
+  for (const Point& o : offsets) add_square(scatter, difference(o, mean), 1);
   return scatter;
 }
 

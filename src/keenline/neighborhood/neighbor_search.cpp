@@ -1,8 +1,10 @@
 #include "keenline/neighborhood/neighbor_search.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
@@ -111,6 +113,88 @@ std::vector<std::uint32_t> groups_of(const BoxTree& tree) {
   return groups;
 }
 
+/// From a position to the box of a node, squared; 0 inside. Rounded like the distances to the points in the
+/// box, it is larger than none of them.
+double squared_distance(const Point& position, const Box& box) {
+  double squares = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double gap = std::max({0.0, box.low[axis] - position[axis], position[axis] - box.high[axis]});
+    squares += gap * gap;
+  }
+  return squares;
+}
+
+constexpr std::uint32_t nowhere = 0xFFFF'FFFFU;
+
+/// The nearest points to a position, found by opening the nearest node again and again.
+class Nearest {
+ public:
+  /// \param position as BoxTree::position_of() has it \param without a location that does not count, or
+  /// nowhere
+  Nearest(const BoxTree& tree, const Point& position, int count, std::uint32_t without)
+      : tree_(tree), position_(position), count_(static_cast<std::size_t>(count)), without_(without) {}
+
+  std::vector<std::uint32_t> find() {
+    if (!tree_.nodes().empty()) await(0);
+    while (!open_.empty() && !is_beyond(open_.front().first)) {
+      std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+      const std::uint32_t node = open_.back().second;
+      open_.pop_back();
+      if (tree_.is_leaf(node)) {
+        visit(node);
+      } else {
+        await(node + 1);
+        await(tree_.nodes()[node + 1].next);
+      }
+    }
+    std::sort_heap(found_.begin(), found_.end());
+    std::vector<std::uint32_t> points;
+    points.reserve(found_.size());
+    for (const Ranked& found : found_) points.push_back(found.second);
+    return points;
+  }
+
+ private:
+  using Ranked = std::pair<double, std::uint32_t>;  // squared distance; node or point
+
+  [[nodiscard]] bool is_beyond(double distance) const {
+    return found_.size() == count_ && distance > found_.front().first;
+  }
+
+  void await(std::uint32_t node) {
+    open_.emplace_back(squared_distance(position_, tree_.nodes()[node].box), node);
+    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+
+  void visit(std::uint32_t leaf) {
+    for (std::uint32_t location = tree_.nodes()[leaf].begin; location < tree_.end_of(leaf); ++location) {
+      if (location == without_) continue;
+      const Point& there = tree_.position_of(tree_.first_point_at(location));
+      const double distance = squared_distance(position_, {there, there});
+      for (const std::uint32_t point : tree_.points_at(location))
+        if (!offer({distance, point})) break;  // nor the next, whose index is higher
+    }
+  }
+
+  bool offer(const Ranked& candidate) {
+    if (found_.size() == count_) {
+      if (candidate > found_.front()) return false;
+      std::pop_heap(found_.begin(), found_.end());
+      found_.pop_back();
+    }
+    found_.push_back(candidate);
+    std::push_heap(found_.begin(), found_.end());
+    return true;
+  }
+
+  const BoxTree& tree_;
+  Point position_;
+  std::size_t count_;
+  std::uint32_t without_;
+  std::vector<Ranked> open_;   // nodes, the nearest in front
+  std::vector<Ranked> found_;  // points, the farthest in front
+};
+
 }  // namespace
 
 NeighborSearch::NeighborSearch(const std::vector<Point>& positions, const Progress& progress)
@@ -127,15 +211,15 @@ std::vector<std::uint32_t> NeighborSearch::nearest(std::uint32_t point, int coun
   require_neighbor_count(count);
   if (point >= size_)
     throw InvalidArgument(fmt::format("point: found {}, expected 0 to {}", point, size_ - 1));
-  std::vector<std::uint32_t> neighbors;
-  const auto capacity = static_cast<std::size_t>(count);
   const std::optional<std::uint32_t> location = tree_->location_of(point);
-  if (!location) return neighbors;
-  const Point& position = tree_->position_of(point);
-  Surroundings surroundings(*tree_, capacity);
-  surroundings.enter({position, position}, *location);
-  append_points(*tree_, surroundings.nearest(position, *location), capacity, neighbors);
-  return neighbors;
+  if (!location) return {};
+  return Nearest(*tree_, tree_->position_of(point), count, *location).find();
+}
+
+std::vector<std::uint32_t> NeighborSearch::nearest_to(const Point& position, int count) const {
+  if (count < 1) throw InvalidArgument(fmt::format("nearest points: found {}, expected at least 1", count));
+  if (!is_finite(position)) return {};
+  return Nearest(*tree_, tree_->scaled(position), count, nowhere).find();
 }
 
 void NeighborSearch::for_each_block(int count, const Visit& visit, Progress& progress) const {

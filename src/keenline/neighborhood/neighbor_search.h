@@ -33,6 +33,14 @@ class NeighborSearch {
   /// \throw InvalidArgument unless min_neighbors <= count <= max_neighbors and there is such a point.
   [[nodiscard]] std::vector<std::uint32_t> nearest(std::uint32_t point, int count) const;
 
+  /// The `count` points nearest to any position of space, ordered by (distance, index). Unlike nearest(),
+  /// points at the position itself come first, and count may be any number from 1. None when the position is
+  /// not finite; all where there are no more.
+  /// Threads: may be called from many at once. Cost: O(log n + count log count) for well-spread points and a
+  /// position near them.
+  /// \throw InvalidArgument unless count >= 1
+  [[nodiscard]] std::vector<std::uint32_t> nearest_to(const Point& position, int count) const;
+
   /// neighborhoods.of(i) are the neighbours of points[i]; both are overwritten after the call.
   using Visit =
       std::function<void(std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods)>;

@@ -6,28 +6,22 @@
 #include <span>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "keenline/errors.h"
 #include "keenline/kernels/portable_math.h"
-#include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
-constexpr std::size_t nearest = 16;
+constexpr int nearest = 16;
 
 /// Says that a point does not count.
 constexpr double none = -1;
-
-void require_match(const PointCloud& cloud, const Neighborhoods& neighborhoods) {
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
-}
 
 /// Of all values but `none`; 0 when there are no others.
 double lower_median(std::vector<double> values) {
@@ -38,11 +32,6 @@ double lower_median(std::vector<double> values) {
   return *middle;
 }
 
-std::span<const std::uint32_t> nearest_of(const Neighborhoods& neighborhoods, std::size_t point) {
-  const auto neighbors = neighborhoods.of(point);
-  return neighbors.first(std::min(neighbors.size(), nearest));
-}
-
 /// Spacing of a surface where a disc of the radius `farthest` has `count` points beside the one in its
 /// middle.
 double spacing_within(const Point& farthest, std::size_t count) {
@@ -51,17 +40,18 @@ double spacing_within(const Point& farthest, std::size_t count) {
 
 }  // namespace
 
-double estimate_spacing(const PointCloud& cloud, const Neighborhoods& neighborhoods) {
-  require_match(cloud, neighborhoods);
-  require_memory(cloud.size() * sizeof(double), "measuring the spacing");
-  std::vector<double> spacings(cloud.size(), none);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 1024),
+double estimate_spacing(const PointCloud& cloud, const NeighborSearch& search) {
+  constexpr std::size_t largest_sample = 131072;
+  const std::size_t step = (cloud.size() + largest_sample - 1) / largest_sample;
+  std::vector<double> spacings(step == 0 ? 0 : (cloud.size() + step - 1) / step, none);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, spacings.size(), 1024),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       LocalOffsets local;
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        const auto neighbors = nearest_of(neighborhoods, i);
+                        const auto point = static_cast<std::uint32_t>(i * step);
+                        const std::vector<std::uint32_t> neighbors = search.nearest(point, nearest);
                         if (neighbors.size() < min_neighbors) continue;
-                        if (!local.gather(cloud.positions, i, neighbors.last(1))) continue;
+                        if (!local.gather(cloud.positions, point, std::span(neighbors).last(1))) continue;
                         const double spacing = spacing_within(local.offsets()[0], neighbors.size());
                         if (is_finite({spacing * local.unit(), 0, 0})) spacings[i] = spacing * local.unit();
                       }

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "keenline/vectors.h"
+
 namespace keenline {
 namespace {
 
@@ -19,8 +21,8 @@ double squared_distance(const Box& a, const Box& b) {
 
 /// These operations in this order decide which neighbour is nearer.
 double squared_distance(const Point& a, const Point& b) {
-  const Point d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const Point d = difference(a, b);
+  return dot(d, d);
 }
 
 template <typename T>

@@ -20,8 +20,4 @@ struct CameraAxes {
 /// \throw InvalidArgument unless both angles are finite and the elevation is -90 to 90.
 [[nodiscard]] CameraAxes axes_of(const Camera& camera);
 
-[[nodiscard]] inline double dot_product(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 }  // namespace keenline

@@ -16,6 +16,7 @@
 #include "keenline/errors.h"
 #include "keenline/report/legend.h"
 #include "keenline/report/lettering.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
@@ -71,19 +72,19 @@ class Sphere {
   }
 
   /// Names at the ends of the coordinate axes that face the viewer.
-  void draw_names(double dot) {
+  void draw_names(double pixel) {
     constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const double sign : {1.0, -1.0}) {
         Point end{};
         end[axis] = sign;
-        if (dot_product(axes_.toward, end) < 0.05) continue;
+        if (dot(axes_.toward, end) < 0.05) continue;
         const auto [x, y] = place(end);
         const std::string name = fmt::format("{}{}", sign > 0 ? "+" : "-", names[axis]);
         // Clear of the dots, which gather where faces are parallel to the coordinate planes.
         const double away = radius_ / 9 / std::max(1.0, std::hypot(x - x_, y - y_));
-        const double left = x + (x - x_) * away - text_width(name, dot) / 2;
-        draw_text(image_, left, y + (y - y_) * away - 3.5 * dot, name, dot, circle_color);
+        const double left = x + (x - x_) * away - text_width(name, pixel) / 2;
+        draw_text(image_, left, y + (y - y_) * away - 3.5 * pixel, name, pixel, circle_color);
       }
     }
   }
@@ -95,7 +96,7 @@ class Sphere {
     for (std::size_t i = 0; i < map.lines.size(); ++i) {
       Point direction{};
       for (std::size_t axis = 0; axis < 3; ++axis) direction[axis] = static_cast<double>(map.lines[i][axis]);
-      const bool faces_viewer = dot_product(axes_.toward, direction) >= 0;
+      const bool faces_viewer = dot(axes_.toward, direction) >= 0;
       if (faces_viewer != front)
         for (double& coordinate : direction) coordinate = -coordinate;
       const auto [x, y] = place(direction);
@@ -122,8 +123,7 @@ class Sphere {
     double y;
   };
   [[nodiscard]] Place place(const Point& direction) const {
-    return {x_ + radius_ * dot_product(axes_.right, direction),
-            y_ - radius_ * dot_product(axes_.up, direction)};
+    return {x_ + radius_ * dot(axes_.right, direction), y_ - radius_ * dot(axes_.up, direction)};
   }
 
   static constexpr int steps = 180;
@@ -140,7 +140,7 @@ class Sphere {
   }
   void draw_half_circle(const Point& a, const Point& b, double opacity, bool front) {
     for (int step = 0; step < steps; ++step)
-      if ((dot_product(axes_.toward, on_circle(a, b, step)) >= 0) == front) draw_arc(a, b, step, opacity);
+      if ((dot(axes_.toward, on_circle(a, b, step)) >= 0) == front) draw_arc(a, b, step, opacity);
   }
   void draw_arc(const Point& a, const Point& b, int step, double opacity) {
     const Place from = place(on_circle(a, b, step));
