@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "keenline/cloud.h"
+#include "keenline/detect/demarsin.h"
 #include "keenline/detect/gauss.h"
 #include "keenline/detect/gumhold.h"
 #include "keenline/detect/pauly.h"
+#include "keenline/detect/tensor_voting.h"
+#include "keenline/detect/voters.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighbor_search.h"
 
@@ -170,7 +173,8 @@ TEST(Registry, PaulyOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(values.at("smallest-scale"), 15.0);
   EXPECT_EQ(values.at("variation"), 0.04);
   EXPECT_EQ(values.at("grow-share"), 0.7);
-  EXPECT_EQ(pauly.detect(PointCloud{}, Neighborhoods{}, values, no_progress()).size(), 0U);
+  const PointCloud none;
+  EXPECT_EQ(pauly.detect(none, NeighborSearch(none.positions), values, no_progress()).size(), 0U);
 }
 
 TEST(Registry, GumholdOptionsAreThoseOfTheMethod) {
@@ -193,7 +197,54 @@ TEST(Registry, GumholdOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(adapted({{"crease-limit", 0.5}}, 5).at("crease-limit"), 0.5);
   EXPECT_EQ(gumhold.reach(adapted({{"neighbors", 20.0}}, 0)), 20);
   OptionValues given = adapted({{"shortest-cycle", 7.0}, {"plain", 1.0}}, 0);
-  EXPECT_EQ(gumhold.detect(PointCloud{}, Neighborhoods{}, given, no_progress()).size(), 0U);
+  const PointCloud none;
+  EXPECT_EQ(gumhold.detect(none, NeighborSearch(none.positions), given, no_progress()).size(), 0U);
+}
+
+TEST(Registry, DemarsinOptionsAreThoseOfTheMethod) {
+  const Method& method = find_method("demarsin");
+  const DemarsinOptions standard;
+  const DemarsinOptions defaults = demarsin_options_from(resolve_options(method, {}));
+  EXPECT_EQ(defaults.normal_neighbors, standard.normal_neighbors);
+  EXPECT_EQ(defaults.region_neighbors, standard.region_neighbors);
+  EXPECT_EQ(defaults.segment_angle_deg, standard.segment_angle_deg);
+  EXPECT_EQ(defaults.min_patch, standard.min_patch);
+  const OptionValues values = resolve_options(
+      method,
+      {{"normal-neighbors", 60.0}, {"region-neighbors", 9.0}, {"segment-angle", 7.5}, {"min-patch", 20.0}});
+  const DemarsinOptions given = demarsin_options_from(values);
+  EXPECT_EQ(given.normal_neighbors, 60);
+  EXPECT_EQ(given.region_neighbors, 9);
+  EXPECT_EQ(given.segment_angle_deg, 7.5);
+  EXPECT_EQ(given.min_patch, 20);
+  EXPECT_EQ(method.reach(values), 60);
+  OptionValues chosen = resolve_options(method, {});
+  EXPECT_EQ(method.reach(chosen), demarsin_view);
+  const PointCloud none;
+  (void)method.detect(none, NeighborSearch(none.positions), chosen, no_progress());
+  EXPECT_EQ(chosen.at("segment-angle"), 5);
+}
+
+TEST(Registry, TensorVotingOptionsAreThoseOfTheMethod) {
+  const Method& method = find_method("tensor_voting");
+  const TensorVotingOptions standard;
+  const TensorVotingOptions defaults = tensor_voting_options_from(resolve_options(method, {}));
+  EXPECT_EQ(defaults.voting_scale, standard.voting_scale);
+  EXPECT_EQ(defaults.curvature_weight, standard.curvature_weight);
+  EXPECT_EQ(defaults.min_curve, standard.min_curve);
+  EXPECT_EQ(defaults.min_junction, standard.min_junction);
+  const OptionValues values = resolve_options(
+      method, {{"voting-scale", 2.0}, {"curvature-weight", 3.0}, {"min-curve", 0.25}, {"min-junction", 0.5}});
+  const TensorVotingOptions given = tensor_voting_options_from(values);
+  EXPECT_EQ(given.voting_scale, 2);
+  EXPECT_EQ(given.curvature_weight, 3);
+  EXPECT_EQ(given.min_curve, 0.25);
+  EXPECT_EQ(given.min_junction, 0.5);
+  EXPECT_EQ(method.reach(values), voters_within(2));
+  OptionValues chosen = resolve_options(method, {});
+  const PointCloud none;
+  (void)method.detect(none, NeighborSearch(none.positions), chosen, no_progress());
+  EXPECT_TRUE(chosen.at("min-curve").has_value());
 }
 
 }  // namespace

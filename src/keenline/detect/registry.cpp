@@ -9,11 +9,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "keenline/detect/demarsin.h"
 #include "keenline/detect/gauss.h"
 #include "keenline/detect/gumhold.h"
 #include "keenline/detect/pauly.h"
+#include "keenline/detect/tensor_voting.h"
+#include "keenline/detect/voters.h"
 #include "keenline/errors.h"
 #include "keenline/io/text.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 
 namespace keenline {
@@ -93,6 +97,12 @@ FeatureLabels gauss_detect(const PointCloud& cloud, const NeighborSearch& search
   return labels;
 }
 
+/// For methods that look at the neighbours of a point more than once.
+Neighborhoods table_of(const NeighborSearch& search, int count, std::size_t points, Progress& progress) {
+  progress.begin("neighborhoods", points);
+  return search.all(count, progress);
+}
+
 constexpr OptionInfo border_gap_option{
     "border-gap",
     "Sector without neighbours that makes a border; 360 = no borders; auto = 120, for gumhold 100",
@@ -149,7 +159,7 @@ void pauly_adapt(OptionValues& values, double /*noise*/, std::size_t /*points*/)
   if (plain && !values.at("variation")) values.at("variation") = 0.04;
 }
 
-FeatureLabels pauly_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
+FeatureLabels pauly_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
                            Progress& progress) {
   PaulyOptions options;
   options.smallest_scale = static_cast<int>(*values.at("smallest-scale"));
@@ -160,7 +170,8 @@ FeatureLabels pauly_detect(const PointCloud& cloud, const Neighborhoods& neighbo
   options.grow_share = *values.at("grow-share");
   options.turn_deg = *values.at("turn");
   options.border_gap_deg = *values.at("border-gap");
-  return detect_pauly(cloud, neighborhoods, options, progress);
+  return detect_pauly(cloud, table_of(search, pauly_reach(values), cloud.size(), progress), options,
+                      progress);
 }
 
 constexpr std::array gumhold_options{
@@ -190,27 +201,85 @@ void gumhold_adapt(OptionValues& values, double noise, std::size_t /*points*/) {
   if (!border_gap) border_gap = 100;
 }
 
-FeatureLabels gumhold_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                             OptionValues& values, Progress& progress) {
+FeatureLabels gumhold_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
+                             Progress& progress) {
   GumholdOptions options;
   options.neighbors = gumhold_reach(values);
   options.crease_limit = *values.at("crease-limit");
   options.border_gap_deg = *values.at("border-gap");
   if (const auto& cycle = values.at("shortest-cycle")) options.shortest_cycle = static_cast<int>(*cycle);
   options.plain = gumhold_is_plain(values);
-  return detect_gumhold(cloud, neighborhoods, options, progress);
+  return detect_gumhold(cloud, table_of(search, options.neighbors, cloud.size(), progress), options,
+                        progress);
+}
+
+void adapt_nothing(OptionValues& /*values*/, double /*noise*/, std::size_t /*points*/) {}
+
+bool is_never_plain(const OptionValues& /*values*/) { return false; }
+
+constexpr std::array demarsin_options{
+    OptionInfo{"normal-neighbors", "Nearest neighbours that a normal is taken from",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", 10, ""},
+    OptionInfo{"region-neighbors", "Nearest neighbours that a region grows to", OptionInfo::Type::Integer,
+               min_neighbors, max_neighbors, false, "points", 8, ""},
+    OptionInfo{"segment-angle",
+               "Largest angle between normals of neighbours in one region; auto = thrice the usual, 5 to 10",
+               OptionInfo::Type::Real, 1, 45, false, "degrees", std::nullopt, "auto"},
+    OptionInfo{"min-patch", "Points inside a region that make it a face of the shape",
+               OptionInfo::Type::Integer, 1, 1e9, false, "points", 10, ""},
+};
+
+int demarsin_reach(const OptionValues& values) {
+  const double reach = std::max(*values.at("normal-neighbors"), *values.at("region-neighbors"));
+  return std::max(demarsin_view, static_cast<int>(reach));
+}
+
+FeatureLabels demarsin_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
+                              Progress& progress) {
+  FeatureLabels labels = detect_demarsin(cloud, search, demarsin_options_from(values), progress);
+  values["segment-angle"] = labels.threshold;
+  return labels;
+}
+
+constexpr std::array tensor_voting_options{
+    OptionInfo{"voting-scale", "Distance over which votes fade to 1/e", OptionInfo::Type::Real, 1,
+               largest_voting_scale, false, "spacings", 1.5, ""},
+    OptionInfo{"curvature-weight", "How much sooner votes fade that have to bend", OptionInfo::Type::Real, 0,
+               100, false, "", 1, ""},
+    OptionInfo{"min-curve",
+               "Curve saliency above which a point is sharp; auto = 0.07 to 0.2, where it matters least",
+               OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
+    OptionInfo{"min-junction", "Junction saliency above which a sharp point is a corner",
+               OptionInfo::Type::Real, 0, 1, false, "", 0.12, ""},
+};
+
+int tensor_voting_reach(const OptionValues& values) { return voters_within(*values.at("voting-scale")); }
+
+FeatureLabels tensor_voting_detect(const PointCloud& cloud, const NeighborSearch& search,
+                                   OptionValues& values, Progress& progress) {
+  FeatureLabels labels = detect_tensor_voting(cloud, search, tensor_voting_options_from(values), progress);
+  values["min-curve"] = labels.threshold;
+  return labels;
 }
 
 constexpr std::array table{
     Method{"gauss", "Gauss map clustering: directions of the triangles around a point",
            "Weber, Hahmann, Hagen 2010: Methods for Feature Detection in Point Clouds", MethodInput::Points,
            gauss_options, gauss_reach, gauss_adapt, gauss_is_plain, gauss_detect},
-    Method{"pauly", "Surface variation at many scales, with hysteresis",
-           "Pauly, Keiser, Gross 2003: Multi-scale Feature Extraction on Point-Sampled Surfaces",
-           MethodInput::Points, pauly_options, pauly_reach, pauly_adapt, pauly_is_plain, pauly_detect},
     Method{"gumhold", "Minimum spanning pattern of a neighbour graph whose edges are penalised off creases",
            "Gumhold, Wang, MacLeod 2001: Feature Extraction from Point Clouds", MethodInput::Points,
            gumhold_options, gumhold_reach, gumhold_adapt, gumhold_is_plain, gumhold_detect},
+    Method{"pauly", "Surface variation at many scales, with hysteresis",
+           "Pauly, Keiser, Gross 2003: Multi-scale Feature Extraction on Point-Sampled Surfaces",
+           MethodInput::Points, pauly_options, pauly_reach, pauly_adapt, pauly_is_plain, pauly_detect},
+    Method{"demarsin", "What is left between the regions in which normals turn slowly",
+           "Demarsin, Vanderstraeten, Volodine, Roose 2007: Detection of closed sharp edges in point clouds",
+           MethodInput::Points, demarsin_options, demarsin_reach, adapt_nothing, is_never_plain,
+           demarsin_detect},
+    Method{"tensor_voting", "Tensor voting: every point tells its neighbours where the surface goes on",
+           "Guy, Medioni 1997: Inference of Surfaces, 3D Curves, and Junctions from Sparse, Noisy, 3D Data",
+           MethodInput::Points, tensor_voting_options, tensor_voting_reach, adapt_nothing, is_never_plain,
+           tensor_voting_detect},
 };
 
 [[noreturn]] void refuse(const OptionInfo& option, std::string_view found) {
@@ -304,6 +373,24 @@ GaussOptions gauss_options_from(const OptionValues& values) {
   options.thin = *values.at("thin") != 0;
   options.plain = *values.at("plain") != 0;
   options.keep_spectrum = *values.at("spectrum") != 0;
+  return options;
+}
+
+DemarsinOptions demarsin_options_from(const OptionValues& values) {
+  DemarsinOptions options;
+  options.normal_neighbors = static_cast<int>(*values.at("normal-neighbors"));
+  options.region_neighbors = static_cast<int>(*values.at("region-neighbors"));
+  options.segment_angle_deg = values.at("segment-angle");
+  options.min_patch = static_cast<int>(*values.at("min-patch"));
+  return options;
+}
+
+TensorVotingOptions tensor_voting_options_from(const OptionValues& values) {
+  TensorVotingOptions options;
+  options.voting_scale = *values.at("voting-scale");
+  options.curvature_weight = *values.at("curvature-weight");
+  options.min_curve = values.at("min-curve");
+  options.min_junction = *values.at("min-junction");
   return options;
 }
 

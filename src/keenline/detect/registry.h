@@ -12,9 +12,11 @@
 
 namespace keenline {
 
+struct DemarsinOptions;
 struct GaussOptions;
 class NeighborSearch;
 struct PointCloud;
+struct TensorVotingOptions;
 
 /// One option of a method, stated once: the command line, bindings and docs take it from here.
 struct OptionInfo {
@@ -81,5 +83,11 @@ struct Method {
 
 /// \pre values hold every option of the method gauss (see resolve_options)
 [[nodiscard]] GaussOptions gauss_options_from(const OptionValues& values);
+
+/// \pre values hold every option of the method demarsin
+[[nodiscard]] DemarsinOptions demarsin_options_from(const OptionValues& values);
+
+/// \pre values hold every option of the method tensor_voting
+[[nodiscard]] TensorVotingOptions tensor_voting_options_from(const OptionValues& values);
 
 }  // namespace keenline

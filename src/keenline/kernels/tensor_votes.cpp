@@ -1,0 +1,90 @@
+#include "keenline/kernels/tensor_votes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keenline/kernels/portable_math.h"
+#include "keenline/vectors.h"
+
+namespace keenline::kernels {
+namespace {
+
+void add_scaled(Symmetric3& sum, const Symmetric3& m, double s) {
+  sum.xx += s * m.xx;
+  sum.xy += s * m.xy;
+  sum.xz += s * m.xz;
+  sum.yy += s * m.yy;
+  sum.yz += s * m.yz;
+  sum.zz += s * m.zz;
+}
+
+/// sum += s v vᵀ
+void add_square(Symmetric3& sum, const Point& v, double s) {
+  add_scaled(sum, {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[1] * v[1], v[1] * v[2], v[2] * v[2]}, s);
+}
+
+void add_identity(Symmetric3& sum, double s) {
+  sum.xx += s;
+  sum.yy += s;
+  sum.zz += s;
+}
+
+/// v mirrored in the plane across `direction`, whose squared length is `square`.
+Point mirrored(const Point& v, const Point& direction, double square) {
+  return difference(v, scaled(2 * dot(v, direction) / square, direction));
+}
+
+/// asin(u) / u for u = sqrt(square) in [0, 1].
+double arc_over_sine(double square) {
+  if (square < 1e-12) return 1;  // it is 1 + u² / 6
+  const double sine = std::sqrt(square);
+  return angle_of(sine, std::sqrt(1 - square)) / sine;
+}
+
+}  // namespace
+
+void add_stick_vote(Symmetric3& tensor, const Point& normal, const Point& offset, double curvature_weight,
+                    double weight) {
+  const double square = dot(offset, offset);
+  const double across = dot(normal, offset);
+  const double squared_sine = across * across / square;  // of the angle off the tangent plane
+  constexpr double largest_squared_sine = 0.5;           // 45 degrees
+  if (squared_sine > largest_squared_sine) return;
+  const double arc_per_chord = arc_over_sine(squared_sine);
+  const double squared_arc = square * arc_per_chord * arc_per_chord;
+  const double squared_curvature = 4 * squared_sine / square;
+  const double fade = exp_of_negative(-(squared_arc + curvature_weight * squared_curvature));
+  add_square(tensor, mirrored(normal, offset, square), weight * fade);
+}
+
+void add_plate_vote(Symmetric3& tensor, const Point& tangent, const Point& offset, double weight) {
+  // With r the unit offset, R = I - 2 r rᵀ, P = I - t tᵀ and a = P r: R (P - (|a|² P + 2 a aᵀ) / 4) R.
+  // R P R = I - (R t)(R t)ᵀ.
+  const double square = dot(offset, offset);
+  const double along = dot(tangent, offset);
+  const Point a = scaled(1 / std::sqrt(square), difference(offset, scaled(along, tangent)));
+  const Point mirrored_tangent = mirrored(tangent, offset, square);
+  const Point mirrored_a = mirrored(a, offset, square);
+  const double strength = weight * exp_of_negative(-square);
+  const double kept = strength * (1 - 0.25 * dot(a, a));
+  add_identity(tensor, kept);
+  add_square(tensor, mirrored_tangent, -kept);
+  add_square(tensor, mirrored_a, -0.5 * strength);
+}
+
+void add_ball_vote(Symmetric3& tensor, const Point& offset, double weight) {
+  const double square = dot(offset, offset);
+  const double strength = 0.8 * weight * exp_of_negative(-square);
+  add_identity(tensor, strength);
+  add_square(tensor, offset, -0.5 * strength / square);
+}
+
+Saliency saliency_of(const Eigen3& tensor) {
+  const double largest = tensor.values[0];
+  if (!(largest > 0)) return {};
+  const double second = std::max(0.0, tensor.values[1]);  // rounding may leave less than 0
+  const double third = std::max(0.0, tensor.values[2]);
+  return {(largest - second) / largest, (second - third) / largest, third / largest};
+}
+
+}  // namespace keenline::kernels
