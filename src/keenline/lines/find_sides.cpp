@@ -346,7 +346,9 @@ std::optional<LineSides> find_sides(const PointCloud& cloud, const NeighborSearc
                                     const Point& position, const Point& direction, LineKind kind,
                                     double spacing, const SidesOptions& options) {
   if (dot(direction, direction) == 0) return std::nullopt;
-  const Patch patch = patch_around(cloud, search, position, direction, spacing, options);
+  SidesOptions within = options;
+  if (kind == LineKind::Border) within.stretch = options.reach;  // one line of points is little to go by
+  const Patch patch = patch_around(cloud, search, position, direction, spacing, within);
   const std::size_t wanted = kind == LineKind::Crease ? 2 : 1;
   for (const double rim : {options.rim, 0.5 * options.rim, 0.2 * options.rim}) {
     const std::vector<std::uint32_t> points = patch.beyond(rim);
