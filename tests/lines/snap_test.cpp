@@ -44,7 +44,7 @@ TEST(Snap, RoughLinesOfExactPlanesBecomeNearlyExact) {
 
 TEST(Snap, NoiseAndBentSidesLeaveATenthOfASpacing) {
   for (const char* const shape : {"cube", "cylinder", "cone", "icosahedron", "through-hole"}) {
-    const LineScene scene(shape_options(shape, 12000, 0.05));
+    const LineScene scene(shape_options(shape, 5000, 0.05));
     const GraphComparison comparison = compared(scene, snapped(scene, roughened(scene.truth, scene.spacing)));
     EXPECT_LT(comparison.chamfer(), 0.1 * scene.spacing) << shape;
     EXPECT_NEAR(comparison.length_ratio, 1, 0.01) << shape;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/lines/rim.h"
@@ -26,6 +27,7 @@ constexpr double largest_residual = 0.35;     // beyond, it is not one surface
 constexpr std::size_t fewest_points = 8;
 constexpr double largest_curvature = 0.15;  // half of 1 / radius: no surface of radius 3.3 is smooth
 constexpr double worth_of_bending = 16.3;   // chi squared of 3 degrees of freedom at 0.1 %
+constexpr double hint_of_bending = 6;       // chi squared of 2 degrees of freedom at 5 %
 constexpr double tukey = 4.685;             // 95 % efficient for normal residuals
 constexpr double mad_to_sigma = 1.4826;
 
@@ -166,7 +168,7 @@ double median(std::vector<double>& values) {
 class Refinement {
  public:
   /// Points nearer to the line than `rim` say nothing of what the sides are like.
-  Refinement(const Patch& patch, double rim, std::vector<SideSurface> sides)
+  Refinement(const Patch& patch, double rim, const std::vector<SideSurface>& sides)
       : patch_(patch), rim_(rim), weights_(patch.offsets.size()) {
     for (const SideSurface& side : sides) fits_.push_back({side, widest_tolerance, SurfaceTerms::Plane});
   }
@@ -181,11 +183,10 @@ class Refinement {
     std::vector<Fit> bent = fits_;
     for (std::size_t s = 0; s < fits_.size(); ++s) bend(s, bent[s]);
     fits_ = bent;
-    // Points that lie on a surface so chosen keep it from swaying at the line, as near as they come to it.
-    for (const double rim : {0.6 * rim_, 0.3 * rim_, 0.0}) {
-      rim_ = rim;
-      for (std::size_t s = 0; s < fits_.size(); ++s) fit(s, fits_[s]);
-    }
+    std::vector<Fit> grown = fits_;
+    for (std::size_t s = 0; s < fits_.size(); ++s) grown[s] = grown_to_line(s);
+    fits_ = grown;
+    rim_ = 0;
     std::vector<Side> result;
     for (std::size_t s = 0; s < fits_.size(); ++s) result.push_back(side(s));
     return result;
@@ -254,12 +255,36 @@ class Refinement {
   /// Gives `bent`, which is the plane of side `s`, the curvature that its points ask for.
   void bend(std::size_t s, Fit& bent) {
     for (const SurfaceTerms terms : {SurfaceTerms::BentAlongY, SurfaceTerms::Quadric}) {
-      Fit candidate{fits_[s].surface, widest_tolerance, terms};
-      bool is_fitted = true;
-      constexpr int rounds = 6;
-      for (int round = 0; round < rounds && is_fitted; ++round) is_fitted = fit(s, candidate);
-      if (is_fitted && is_smooth(candidate.surface) && is_better(s, candidate, bent)) bent = candidate;
+      const std::optional<Fit> candidate = with_terms(s, terms);
+      if (candidate && gain(s, *candidate, bent, fits_[s]) > worth_of_bending) bent = *candidate;
     }
+  }
+
+  std::optional<Fit> with_terms(std::size_t s, SurfaceTerms terms) {
+    Fit candidate{fits_[s].surface, widest_tolerance, terms};
+    constexpr int rounds = 6;
+    for (int round = 0; round < rounds; ++round)
+      if (!fit(s, candidate)) return std::nullopt;
+    if (!is_smooth(candidate.surface)) return std::nullopt;
+    return candidate;
+  }
+
+  /// Side `s` with the points nearer to the line that lie on it: as near as they come they keep it from
+  /// swaying there. If it takes a quadric to reach them, a quadric it is; what is rounded no quadric follows.
+  Fit grown_to_line(std::size_t s) {
+    const double rim = rim_;
+    std::optional<Fit> quadric = with_terms(s, SurfaceTerms::Quadric);
+    if (quadric && gain(s, *quadric, fits_[s], *quadric) < hint_of_bending) quadric.reset();
+    Fit grown = fits_[s];
+    for (const double part : {0.6, 0.3, 0.0}) {
+      rim_ = part * rim;
+      fit(s, grown);
+      if (quadric && !fit(s, *quadric)) quadric.reset();
+    }
+    if (quadric && is_smooth(quadric->surface) && gain(s, *quadric, grown, *quadric) > worth_of_bending)
+      grown = *quadric;
+    rim_ = rim;
+    return grown;
   }
 
   static bool is_smooth(const SideSurface& surface) {
@@ -267,14 +292,14 @@ class Refinement {
                        [](double factor) { return std::abs(factor) <= largest_curvature; });
   }
 
-  /// Does a surface with more terms explain the points of the plane significantly better than one with fewer?
+  /// Does a surface with more terms explain the points of `asked` significantly better than one with fewer?
   /// Other points must not be asked: a third face near a corner is easily had by bending.
-  bool is_better(std::size_t s, const Fit& more, const Fit& fewer) {
+  double gain(std::size_t s, const Fit& more, const Fit& fewer, const Fit& asked) {
     std::vector<std::pair<double, double>> squares;
     residuals_.clear();
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const std::optional<double> of_plane = residual(s, fits_[s].surface, i);
-      if (!of_plane || std::abs(*of_plane) >= fits_[s].tolerance) continue;
+      const std::optional<double> distance = residual(s, asked.surface, i);
+      if (!distance || std::abs(*distance) >= asked.tolerance) continue;
       const double of_more = more.surface.distance(patch_.offsets[i]);
       const double of_fewer = fewer.surface.distance(patch_.offsets[i]);
       squares.emplace_back(of_more * of_more, of_fewer * of_fewer);
@@ -282,7 +307,7 @@ class Refinement {
     }
     const auto count = static_cast<double>(squares.size());
     const auto terms = static_cast<double>(more.terms);
-    if (count <= terms + 1) return false;
+    if (count <= terms + 1) return 0;
     constexpr double finest = 0.03;  // smaller differences matter to nobody
     const double sigma =
         std::max(finest, mad_to_sigma * median(residuals_) * std::sqrt(count / (count - terms)));
@@ -290,7 +315,7 @@ class Refinement {
     constexpr double most = 4;  // what a single point can say
     for (const auto& [of_more, of_fewer] : squares)
       gain += std::min(most, of_fewer / (sigma * sigma)) - std::min(most, of_more / (sigma * sigma));
-    return gain > worth_of_bending;
+    return gain;
   }
 
   Side side(std::size_t s) {
@@ -346,7 +371,9 @@ std::optional<LineSides> find_sides(const PointCloud& cloud, const NeighborSearc
                                     const Point& position, const Point& direction, LineKind kind,
                                     double spacing, const SidesOptions& options) {
   if (dot(direction, direction) == 0) return std::nullopt;
-  const Patch patch = patch_around(cloud, search, position, direction, spacing, options);
+  SidesOptions within = options;
+  if (kind == LineKind::Border) within.stretch = options.reach;  // one line of points is little to go by
+  const Patch patch = patch_around(cloud, search, position, direction, spacing, within);
   const std::size_t wanted = kind == LineKind::Crease ? 2 : 1;
   for (const double rim : {options.rim, 0.5 * options.rim, 0.2 * options.rim}) {
     const std::vector<std::uint32_t> points = patch.beyond(rim);

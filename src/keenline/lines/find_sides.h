@@ -34,11 +34,13 @@ struct LineSides {
 };
 
 /// The two surfaces that meet near `position` in a line of this direction (a unit vector). Points between
-/// rim and reach vote for half planes that begin at the line and follow it, the best two are refined
-/// robustly, and either becomes a quadric where that explains its points significantly better (0.1 %).
-/// Nothing where fewer than two such surfaces with at least 8 points each are found, where their points are
-/// on average more than 0.35 spacings off, or where they meet at less than 7 degrees.
-/// Threads: may be called from many at once. Cost: about 0.2 ms.
+/// rim and reach vote for half planes that begin at the line and follow it; the best two are refined
+/// robustly, and either is bent, along the line or to a quadric, where that explains its points
+/// significantly better (0.1 %). Then nearer points take part as far as they lie on a side. Nothing where
+/// fewer than two such surfaces with at least 8 points each are found, where their points are on average
+/// more than 0.35 spacings off, or where they meet at less than 7 degrees. Of a border: one surface and its
+/// rim, from points up to reach along the line.
+/// Threads: may be called from many at once. Cost: about 0.3 ms.
 /// \pre spacing > 0
 [[nodiscard]] std::optional<LineSides> find_sides(const PointCloud& cloud, const NeighborSearch& search,
                                                   const Point& position, const Point& direction,

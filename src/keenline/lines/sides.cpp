@@ -94,7 +94,8 @@ std::vector<std::optional<LineSides>> sides_along(const Polyline& line, const Po
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     progress.check();
     found[i] = sides_near(arc.at(i), options.reach);
-    if (found[i] && is_bent(*found[i])) found[i] = sides_near(arc.at(i), options.stretch);
+    if (line.kind == LineKind::Crease && found[i] && is_bent(*found[i]))
+      found[i] = sides_near(arc.at(i), options.stretch);
     progress.advance(1);
   });
   const std::vector<std::size_t> nearest = nearest_known(arc, line.closed, options.reach * spacing, found);
