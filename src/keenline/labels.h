@@ -50,6 +50,7 @@ struct FeatureLabels {
   std::vector<float> score;            ///< larger = sharper; the unit is the method's own; 0 where undecided
   std::vector<std::uint8_t> clusters;  ///< number of significant clusters (gauss); empty for other methods
   double sigma_deg = 0;  ///< sensitivity that the labels hold for (gauss); 0: a choice per point
+  double threshold = 0;  ///< score that tells sharp from smooth, where the method has one; else 0
   /// Where the method has a sensitivity and was asked to keep the labels of all.
   std::optional<LabelSpectrum> spectrum;
 

@@ -149,7 +149,7 @@ void pauly_adapt(OptionValues& values, double /*noise*/, std::size_t /*points*/)
   if (plain && !values.at("variation")) values.at("variation") = 0.04;
 }
 
-FeatureLabels pauly_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods, OptionValues& values,
+FeatureLabels pauly_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
                            Progress& progress) {
   PaulyOptions options;
   options.smallest_scale = static_cast<int>(*values.at("smallest-scale"));
@@ -160,7 +160,9 @@ FeatureLabels pauly_detect(const PointCloud& cloud, const Neighborhoods& neighbo
   options.grow_share = *values.at("grow-share");
   options.turn_deg = *values.at("turn");
   options.border_gap_deg = *values.at("border-gap");
-  return detect_pauly(cloud, neighborhoods, options, progress);
+  FeatureLabels labels = detect_pauly(cloud, search, options, progress);
+  values["variation"] = labels.threshold;
+  return labels;
 }
 
 constexpr std::array gumhold_options{
@@ -190,15 +192,15 @@ void gumhold_adapt(OptionValues& values, double noise, std::size_t /*points*/) {
   if (!border_gap) border_gap = 100;
 }
 
-FeatureLabels gumhold_detect(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                             OptionValues& values, Progress& progress) {
+FeatureLabels gumhold_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
+                             Progress& progress) {
   GumholdOptions options;
   options.neighbors = gumhold_reach(values);
   options.crease_limit = *values.at("crease-limit");
   options.border_gap_deg = *values.at("border-gap");
   if (const auto& cycle = values.at("shortest-cycle")) options.shortest_cycle = static_cast<int>(*cycle);
   options.plain = gumhold_is_plain(values);
-  return detect_gumhold(cloud, neighborhoods, options, progress);
+  return detect_gumhold(cloud, search, options, progress);
 }
 
 constexpr std::array table{
