@@ -58,13 +58,13 @@ class Detector {
     const SpanningPattern creases =
         pattern_of([&](std::uint32_t a, std::uint32_t b) { return is_decided(a) && is_decided(b); },
                    [&](std::uint32_t a, std::uint32_t b, const Way& way) {
-                     return crease_penalty(penalties_[a], penalties_[b], way.direction, rule_);
+                     return edge_crease_penalty(penalties_[a], penalties_[b], way.direction, rule_);
                    },
                    options_.crease_limit);
     SpanningPattern borders =
         pattern_of([&](std::uint32_t a, std::uint32_t b) { return may_be_border(a) && may_be_border(b); },
                    [&](std::uint32_t a, std::uint32_t b, const Way& way) {
-                     return border_penalty(penalties_[a], penalties_[b], way.direction, rule_);
+                     return edge_border_penalty(penalties_[a], penalties_[b], way.direction, rule_);
                    },
                    no_limit);
     borders.keep_loops();
