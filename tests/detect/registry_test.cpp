@@ -7,6 +7,8 @@
 #include "keenline/cloud.h"
 #include "keenline/detect/demarsin.h"
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/gumhold.h"
+#include "keenline/detect/pauly.h"
 #include "keenline/detect/tensor_voting.h"
 #include "keenline/detect/voters.h"
 #include "keenline/errors.h"
@@ -148,6 +150,59 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_FALSE(given.thin);
   EXPECT_TRUE(given.plain);
   EXPECT_TRUE(given.keep_spectrum);
+}
+
+TEST(Registry, PaulyOptionsAreThoseOfTheMethod) {
+  const Method& pauly = find_method("pauly");
+  OptionValues values = resolve_options(pauly, {});
+  EXPECT_EQ(pauly.reach(values), 32);
+  pauly.adapt(values, 0, 1000);
+  const PaulyOptions standard;
+  EXPECT_EQ(values.at("smallest-scale"), standard.smallest_scale);
+  EXPECT_EQ(values.at("largest-scale"), standard.largest_scale);
+  EXPECT_EQ(values.at("scale-step"), standard.scale_step);
+  EXPECT_EQ(values.at("variation"), standard.variation);
+  EXPECT_EQ(values.at("seed-share"), standard.seed_share);
+  EXPECT_EQ(values.at("grow-share"), standard.grow_share);
+  EXPECT_EQ(values.at("turn"), standard.turn_deg);
+  EXPECT_EQ(values.at("border-gap"), standard.border_gap_deg);
+  values = resolve_options(pauly, {{"plain", 1.0}, {"grow-share", 0.7}});
+  EXPECT_TRUE(pauly.is_plain(values));
+  EXPECT_EQ(pauly.reach(values), 120);
+  pauly.adapt(values, 0, 1000);
+  EXPECT_EQ(values.at("smallest-scale"), 15.0);
+  EXPECT_EQ(values.at("variation"), 0.04);
+  EXPECT_EQ(values.at("grow-share"), 0.7);
+  const PointCloud cloud;
+  EXPECT_EQ(pauly.detect(cloud, NeighborSearch(cloud.positions), values, no_progress()).size(), 0U);
+  EXPECT_EQ(values.at("variation"), 0.04);
+  values.at("variation").reset();
+  (void)pauly.detect(cloud, NeighborSearch(cloud.positions), values, no_progress());
+  EXPECT_EQ(values.at("variation"), 0.01) << "what was chosen from the cloud";
+}
+
+TEST(Registry, GumholdOptionsAreThoseOfTheMethod) {
+  const Method& gumhold = find_method("gumhold");
+  const auto adapted = [&](const OptionValues& given, double noise) {
+    OptionValues values = resolve_options(gumhold, given);
+    gumhold.adapt(values, noise, 1000);
+    return values;
+  };
+  const GumholdOptions standard;
+  const OptionValues values = adapted({}, 0);
+  EXPECT_EQ(values.at("neighbors"), standard.neighbors);
+  EXPECT_EQ(values.at("crease-limit"), standard.crease_limit);
+  EXPECT_EQ(values.at("border-gap"), standard.border_gap_deg);
+  EXPECT_EQ(values.at("shortest-cycle"), std::nullopt);
+  EXPECT_FALSE(gumhold.is_plain(values));
+  EXPECT_NEAR(*adapted({}, 0.1).at("crease-limit"), 1.2, 1e-12);
+  EXPECT_NEAR(*adapted({}, 5).at("crease-limit"), 1.0, 1e-12);
+  EXPECT_EQ(adapted({{"plain", 1.0}}, 5).at("crease-limit"), 1.7);
+  EXPECT_EQ(adapted({{"crease-limit", 0.5}}, 5).at("crease-limit"), 0.5);
+  EXPECT_EQ(gumhold.reach(adapted({{"neighbors", 20.0}}, 0)), 20);
+  OptionValues given = adapted({{"shortest-cycle", 7.0}, {"plain", 1.0}}, 0);
+  const PointCloud cloud;
+  EXPECT_EQ(gumhold.detect(cloud, NeighborSearch(cloud.positions), given, no_progress()).size(), 0U);
 }
 
 TEST(Registry, DemarsinOptionsAreThoseOfTheMethod) {

@@ -166,6 +166,17 @@ TEST(Las, KeepsTheCoordinateSystem) {
   EXPECT_EQ(behind.cloud.comments, std::vector<std::string>{"crs_wkt LOCAL_CS[]"});
 }
 
+TEST(Las, KeepsTheCodeAmongGeotiffKeys) {
+  const std::string keys("\1\0\1\0\0\0\1\0\0\x0C\0\0\1\0\xE8\x64", 16);  // 3072: 25832
+  const Reading reading = read(LasFile(2, 0)
+                                   .add_record("LASF_Projection", 34735, keys)
+                                   .add_record("LASF_Projection", 34737, "UTM")
+                                   .add_point(1, 2, 3)
+                                   .str());
+  EXPECT_EQ(reading.cloud.comments, std::vector<std::string>{"crs_epsg 25832"});
+  EXPECT_TRUE(reading.notes.empty());
+}
+
 TEST(Las, TellsWhatItLeavesOut) {
   const Reading reading = read(LasFile(2, 0)
                                    .add_record("LASF_Projection", 34735, "keys")

@@ -39,6 +39,7 @@ TEST(Shapes, areas_have_closed_forms) {
       {"plane", 1},
       {"crease", 2},
       {"cube", 6},
+      {"rounded-cube", 6 * 0.91 * 0.91 + 12 * 0.91 * 0.5 * pi * 0.045 + 4 * pi * 0.045 * 0.045},
       {"box", 22},
       {"icosahedron", 20 * std::sqrt(3.0)},
       {"cylinder", 6 * pi},
@@ -65,6 +66,7 @@ TEST(Shapes, features_are_counted_and_measured) {
       {"plane", {0, 0, 0, 0, 4}},
       {"crease", {1, 1, 0, 0, 6}},
       {"cube", {12, 12, 8, 0, 0}},
+      {"rounded-cube", {0, 0, 0, 0, 0}},
       {"box", {12, 24, 8, 0, 0}},
       {"icosahedron", {30, 60, 12, 0, 0}},
       {"cylinder", {2, 4 * pi, 0, 0, 0}},
@@ -84,6 +86,19 @@ TEST(Shapes, features_are_counted_and_measured) {
     EXPECT_EQ(shape.peaks.size(), expected.peaks) << name;
     EXPECT_EQ(shape.borders.size(), expected.borders) << name;
   }
+}
+
+TEST(Shapes, a_rounded_cube_was_drawn_as_a_cube) {
+  const Shape rounded = build("rounded-cube");
+  EXPECT_EQ(rounded.faces.size(), 6U + 12 + 8);
+  EXPECT_EQ(rounded.designed.size(), 12U);
+  EXPECT_EQ(total_length(rounded.designed), 12);
+  EXPECT_EQ(corners_of(rounded.designed).size(), 8U);
+  for (const Curve& edge : rounded.designed)
+    EXPECT_NEAR(distance_to(build("cube").edges, edge.at(0.3)), 0, 1e-15);
+  // Half-way round, surface and edge are (sqrt(2) - 1) radii apart.
+  EXPECT_NEAR(test::implicits().at("rounded-cube")(rounded.designed[0].at(0.5).point()),
+              (std::sqrt(2.0) - 1) * 0.045, 1e-15);
 }
 
 TEST(Shapes, trim_star_obeys_euler) {
@@ -200,6 +215,7 @@ TEST(Shapes, cone_opens_by_its_angle) {
 
 TEST(Shapes, bounding_boxes_are_tight) {
   const std::map<std::string, double> diagonals{{"cube", std::sqrt(3.0)},
+                                                {"rounded-cube", std::sqrt(3.0)},
                                                 {"box", std::sqrt(14.0)},
                                                 {"cylinder", std::sqrt(12.0)},
                                                 {"cone", std::sqrt(2.75)},

@@ -68,6 +68,15 @@ inline double box(const Point& p, double x, double y, double z) {
   return std::max({std::abs(p[0]) - x / 2, std::abs(p[1]) - y / 2, std::abs(p[2]) - z / 2});
 }
 
+/// Distance from a cube that is smaller by the radius all round, less the radius.
+inline double rounded_cube(const Point& p) {
+  constexpr double radius = 0.045;
+  const double smaller = box(p, 1 - 2 * radius, 1 - 2 * radius, 1 - 2 * radius);
+  const auto beyond = [&](double x) { return std::max(0.0, std::abs(x) - 0.5 + radius); };
+  const double distance = std::hypot(beyond(p[0]), beyond(p[1]), beyond(p[2]));
+  return std::min(smaller, 0.0) + distance - radius;
+}
+
 inline double icosahedron(const Point& p) {
   const double golden = (1 + std::sqrt(5.0)) / 2;
   const auto [x, y, z] = Point{std::abs(p[0]), std::abs(p[1]), std::abs(p[2])};
@@ -83,6 +92,7 @@ inline const std::map<std::string, Implicit>& implicits() {
       {"crease", [](const Point& p) { return (std::abs(p[0]) + p[2]) / std::sqrt(2.0); }},
       {"cube", [](const Point& p) { return box(p, 1, 1, 1); }},
       {"box", [](const Point& p) { return box(p, 3, 2, 1); }},
+      {"rounded-cube", rounded_cube},
       {"icosahedron", icosahedron},
       {"cylinder", [](const Point& p) { return std::max(std::hypot(p[0], p[1]) - 1, std::abs(p[2]) - 1); }},
       {"cone",

@@ -41,6 +41,16 @@ TEST(TrueLines, ACubeHasTwelveStraightEdgesBetweenEightCornersOfThree) {
   EXPECT_EQ(ends, std::vector<int>(8, 3));
 }
 
+TEST(TrueLines, ARoundedCubeHasTheLinesOfACube) {
+  const FeatureGraph rounded = lines_of("rounded-cube");
+  EXPECT_EQ(rounded.corners.size(), 8U);
+  ASSERT_EQ(rounded.polylines.size(), 12U);
+  for (const Polyline& line : rounded.polylines) {
+    EXPECT_TRUE(line.start_corner && line.end_corner);
+    EXPECT_EQ(length_of(line), 1);
+  }
+}
+
 TEST(TrueLines, ACylinderHasTwoLoopsThatMissTheCirclesByAThousandthAtMost) {
   const FeatureGraph graph = lines_of("cylinder", 50);  // the angle limits the chords, not the spacing
   EXPECT_TRUE(graph.corners.empty());

@@ -11,10 +11,13 @@
 
 #include "keenline/detect/demarsin.h"
 #include "keenline/detect/gauss.h"
+#include "keenline/detect/gumhold.h"
+#include "keenline/detect/pauly.h"
 #include "keenline/detect/tensor_voting.h"
 #include "keenline/detect/voters.h"
 #include "keenline/errors.h"
 #include "keenline/io/text.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 
 namespace keenline {
@@ -94,6 +97,116 @@ FeatureLabels gauss_detect(const PointCloud& cloud, const NeighborSearch& search
   return labels;
 }
 
+constexpr OptionInfo border_gap_option{
+    "border-gap",
+    "Sector without neighbours that makes a border; 360 = no borders; auto = 120, for gumhold 100",
+    OptionInfo::Type::Real,
+    0,
+    360,
+    false,
+    "degrees",
+    std::nullopt,
+    "auto"};
+
+constexpr std::array pauly_options{
+    OptionInfo{"smallest-scale", "Smallest neighbourhood to look at; auto = 8, with --plain 15",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
+               "auto"},
+    OptionInfo{"largest-scale", "Largest neighbourhood to look at; auto = 32, with --plain 120",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
+               "auto"},
+    OptionInfo{"scale-step", "From one size of neighbourhood to the next; auto = 4, with --plain 5",
+               OptionInfo::Type::Integer, 1, max_neighbors, false, "points", std::nullopt, "auto"},
+    OptionInfo{"variation",
+               "Surface variation above which a scale speaks for a feature: half of 0.085 finds edges of 90 "
+               "degrees, of 0.019 those of an icosahedron; auto = from the cloud, with --plain 0.04",
+               OptionInfo::Type::Real, 0, 0.333, true, "", std::nullopt, "auto"},
+    OptionInfo{"seed-share", "Share of its scales that makes a point a feature", OptionInfo::Type::Real, 0, 1,
+               false, "", 0.95, ""},
+    OptionInfo{"grow-share",
+               "Share of its scales that makes the neighbour of a feature one; auto = 0.9, with --plain 0.6",
+               OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
+    OptionInfo{"turn", "Larger scales are left out from where the normal turns by more",
+               OptionInfo::Type::Real, 0, 90, false, "degrees", 30, ""},
+    border_gap_option,
+    OptionInfo{"plain", "The paper's parameters where none are given", OptionInfo::Type::Flag, 0, 1, false,
+               "", 0, ""},
+};
+
+bool pauly_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
+
+int pauly_reach(const OptionValues& values) {
+  return static_cast<int>(values.at("largest-scale").value_or(pauly_is_plain(values) ? 120 : 32));
+}
+
+void pauly_adapt(OptionValues& values, double /*noise*/, std::size_t /*points*/) {
+  const bool plain = pauly_is_plain(values);
+  const auto fill = [&](std::string_view name, double with_plain, double otherwise) {
+    auto& value = values.find(name)->second;
+    if (!value) value = plain ? with_plain : otherwise;
+  };
+  fill("smallest-scale", 15, 8);
+  fill("largest-scale", 120, 32);
+  fill("scale-step", 5, 4);
+  fill("grow-share", 0.6, 0.9);
+  fill("border-gap", 120, 120);
+  if (plain && !values.at("variation")) values.at("variation") = 0.04;
+}
+
+FeatureLabels pauly_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
+                           Progress& progress) {
+  PaulyOptions options;
+  options.smallest_scale = static_cast<int>(*values.at("smallest-scale"));
+  options.largest_scale = static_cast<int>(*values.at("largest-scale"));
+  options.scale_step = static_cast<int>(*values.at("scale-step"));
+  options.variation = values.at("variation");
+  options.seed_share = *values.at("seed-share");
+  options.grow_share = *values.at("grow-share");
+  options.turn_deg = *values.at("turn");
+  options.border_gap_deg = *values.at("border-gap");
+  FeatureLabels labels = detect_pauly(cloud, search, options, progress);
+  values["variation"] = labels.threshold;
+  return labels;
+}
+
+constexpr std::array gumhold_options{
+    OptionInfo{"neighbors", "Nearest neighbours in the graph that the pattern is taken from",
+               OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", 16, ""},
+    OptionInfo{"crease-limit",
+               "Penalty below which a connection of neighbours may be part of a crease: 2 is a plane, 0.2 an "
+               "edge of 90 degrees; auto = 1.4, down to 1 as noise grows, with --plain 1.7",
+               OptionInfo::Type::Real, 0, 2, false, "", std::nullopt, "auto"},
+    border_gap_option,
+    OptionInfo{"shortest-cycle",
+               "Edges that cycles need, and half as many that branches need; auto = half the square root of "
+               "the number of points",
+               OptionInfo::Type::Integer, 1, 1e9, false, "edges", std::nullopt, "auto"},
+    OptionInfo{"plain", "The paper's penalties", OptionInfo::Type::Flag, 0, 1, false, "", 0, ""},
+};
+
+bool gumhold_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
+
+int gumhold_reach(const OptionValues& values) { return static_cast<int>(*values.at("neighbors")); }
+
+void gumhold_adapt(OptionValues& values, double noise, std::size_t /*points*/) {
+  // Noise bends: a tenth of a spacing makes up for the curvature of an edge of 150 degrees.
+  auto& limit = values.at("crease-limit");
+  if (!limit) limit = gumhold_is_plain(values) ? 1.7 : 1.4 - 2 * std::min(noise, 0.2);
+  auto& border_gap = values.at("border-gap");
+  if (!border_gap) border_gap = 100;
+}
+
+FeatureLabels gumhold_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
+                             Progress& progress) {
+  GumholdOptions options;
+  options.neighbors = gumhold_reach(values);
+  options.crease_limit = *values.at("crease-limit");
+  options.border_gap_deg = *values.at("border-gap");
+  if (const auto& cycle = values.at("shortest-cycle")) options.shortest_cycle = static_cast<int>(*cycle);
+  options.plain = gumhold_is_plain(values);
+  return detect_gumhold(cloud, search, options, progress);
+}
+
 void adapt_nothing(OptionValues& /*values*/, double /*noise*/, std::size_t /*points*/) {}
 
 bool is_never_plain(const OptionValues& /*values*/) { return false; }
@@ -147,6 +260,12 @@ constexpr std::array table{
     Method{"gauss", "Gauss map clustering: directions of the triangles around a point",
            "Weber, Hahmann, Hagen 2010: Methods for Feature Detection in Point Clouds", MethodInput::Points,
            gauss_options, gauss_reach, gauss_adapt, gauss_is_plain, gauss_detect},
+    Method{"gumhold", "Minimum spanning pattern of a neighbour graph whose edges are penalised off creases",
+           "Gumhold, Wang, MacLeod 2001: Feature Extraction from Point Clouds", MethodInput::Points,
+           gumhold_options, gumhold_reach, gumhold_adapt, gumhold_is_plain, gumhold_detect},
+    Method{"pauly", "Surface variation at many scales, with hysteresis",
+           "Pauly, Keiser, Gross 2003: Multi-scale Feature Extraction on Point-Sampled Surfaces",
+           MethodInput::Points, pauly_options, pauly_reach, pauly_adapt, pauly_is_plain, pauly_detect},
     Method{"demarsin", "What is left between the regions in which normals turn slowly",
            "Demarsin, Vanderstraeten, Volodine, Roose 2007: Detection of closed sharp edges in point clouds",
            MethodInput::Points, demarsin_options, demarsin_reach, adapt_nothing, is_never_plain,

@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "keenline/io/crs.h"
 #include "keenline/io/las_fields.h"
 #include "keenline/io/las_header.h"
 #include "keenline/io/records.h"
@@ -108,19 +109,28 @@ std::string one_line(std::string_view text) {
 /// Keeps what the records say about the coordinate system, and tells what is left out.
 void describe_records(const LasHeader& header, Reading& reading) {
   constexpr std::uint16_t wkt = 2112;
-  constexpr std::uint16_t first_geotiff = 34735;
+  constexpr std::uint16_t geotiff_keys = 34735;
   constexpr std::uint16_t last_geotiff = 34737;
   constexpr std::uint16_t extra_bytes = 4;
-  bool geotiff = false;
+  bool is_lost = false;
   std::size_t others = 0;
   for (const LasRecord& record : header.records) {
     const bool projection = record.user_id == "LASF_Projection";
-    if (projection && record.id == wkt) reading.cloud.comments.push_back("crs_wkt " + one_line(record.data));
-    else if (projection && record.id >= first_geotiff && record.id <= last_geotiff) geotiff = true;
-    else if (record.user_id != "LASF_Spec" || record.id != extra_bytes) ++others;
+    if (projection && record.id == wkt) {
+      reading.cloud.comments.push_back("crs_wkt " + one_line(record.data));
+    } else if (projection && record.id == geotiff_keys) {
+      const std::optional<int> epsg = epsg_of_geotiff_keys(record.data);
+      if (epsg) reading.cloud.comments.push_back(fmt::format("crs_epsg {}", *epsg));
+      else is_lost = true;
+    } else if (projection && record.id > geotiff_keys && record.id <= last_geotiff) {
+      continue;  // numbers and texts that the keys refer to
+    } else if (record.user_id != "LASF_Spec" || record.id != extra_bytes) {
+      ++others;
+    }
   }
-  if (geotiff)
-    reading.notes.emplace_back("the coordinate system, given as GeoTIFF keys, is not carried through");
+  if (is_lost)
+    reading.notes.emplace_back(
+        "the coordinate system, given as GeoTIFF keys without EPSG code, is not carried through");
   if (others > 0)
     reading.notes.push_back(fmt::format("{} variable length records are not carried through", others));
 }

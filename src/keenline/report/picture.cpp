@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "keenline/errors.h"
+#include "keenline/feature_graph.h"
 #include "keenline/io/text.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/labels.h"
@@ -96,9 +97,9 @@ Paint paint_values(const Column& column) {
   return paint;
 }
 
-Paint paint_of(const PointCloud& cloud, const std::string& color) {
+Paint paint_of(const PointCloud& cloud, const std::string& color, bool with_lines) {
   const bool has_kind = cloud.attribute("kind") != nullptr;
-  if (color.empty() && !has_kind) {
+  if (color.empty() && (with_lines || !has_kind)) {
     Paint paint;
     paint.colors.assign(cloud.size(), plain_color);
     paint.legend = {{plain_color, grouped(cloud.size()) + " points"}};
@@ -235,9 +236,41 @@ double median_radius(std::span<const Disc> discs) {
   return *middle;
 }
 
+/// Appends the lines and corners of the graph as rows of balls. `place` puts a position into the picture.
+template <typename Place>
+void append_lines(const FeatureGraph& graph, const Place& place, double marker, double lift,
+                  std::vector<Splat>& splats) {
+  const auto append = [&](const Splat& at, double radius, Color color) {
+    Splat& splat = splats.emplace_back(at);
+    splat.radius = static_cast<float>(radius);
+    splat.depth += static_cast<float>(lift);
+    splat.color = color;
+    splat.is_marker = true;
+  };
+  for (const Polyline& line : graph.polylines) {
+    const Color color = color_of(line.kind == LineKind::Border ? Kind::Border : Kind::Edge);
+    for (std::size_t i = 0; i < segment_count(line); ++i) {
+      const Splat from = place(line.vertices[i]);
+      const Splat to = place(segment_end(line, i));
+      const double length = std::hypot(to.x - from.x, to.y - from.y, to.depth - from.depth);
+      const int steps = static_cast<int>(std::min(std::ceil(length / (0.5 * marker)), 1e5));
+      for (int step = 0; step <= steps; ++step) {
+        const float share = steps > 0 ? static_cast<float>(step) / static_cast<float>(steps) : 0.0F;
+        Splat at;
+        at.x = from.x + share * (to.x - from.x);
+        at.y = from.y + share * (to.y - from.y);
+        at.depth = from.depth + share * (to.depth - from.depth);
+        append(at, 0.6 * marker, color);
+      }
+    }
+  }
+  for (const GraphCorner& corner : graph.corners)
+    append(place(corner.position), 1.3 * marker, color_of(Kind::Corner));
+}
+
 /// All finite points in the order of the cloud, as they are to be drawn in width x height pixels.
-std::vector<Splat> splats_of(const PointCloud& cloud, const Paint& paint, const Camera& camera, int width,
-                             int height, Progress& progress) {
+std::vector<Splat> splats_of(const PointCloud& cloud, const Paint& paint, const Camera& camera,
+                             const FeatureGraph* lines, int width, int height, Progress& progress) {
   const CameraAxes axes = axes_of(camera);
   const Frame frame(cloud);
   const auto view = [&](std::size_t i) { return in_view(axes, frame.normalized(cloud.positions[i])); };
@@ -268,13 +301,17 @@ std::vector<Splat> splats_of(const PointCloud& cloud, const Paint& paint, const 
   const double median = median_radius(discs) * placement.scale;
   const double largest = median > 0 ? std::min(3 * median, 0.06 * side) : 0.015 * side;
   const double marker = std::clamp(0.5 * median, 0.004 * side, 0.011 * side);
+  const auto place = [&](const Point& in_view) {
+    Splat splat;
+    splat.x = static_cast<float>(width / 2.0 + (in_view[0] - placement.center[0]) * placement.scale);
+    splat.y = static_cast<float>(height / 2.0 - (in_view[1] - placement.center[1]) * placement.scale);
+    splat.depth = static_cast<float>((in_view[2] - placement.center[2]) * placement.scale);
+    return splat;
+  };
   std::vector<Splat> splats;
   splats.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    Splat& splat = splats.emplace_back();
-    splat.x = static_cast<float>(width / 2.0 + (seen[k][0] - placement.center[0]) * placement.scale);
-    splat.y = static_cast<float>(height / 2.0 - (seen[k][1] - placement.center[1]) * placement.scale);
-    splat.depth = static_cast<float>((seen[k][2] - placement.center[2]) * placement.scale);
+    Splat& splat = splats.emplace_back(place(seen[k]));
     const double radius = discs[k].radius * placement.scale;
     splat.radius = static_cast<float>(std::clamp(radius > 0 ? radius : largest, 0.7, std::max(0.7, largest)));
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -287,7 +324,25 @@ std::vector<Splat> splats_of(const PointCloud& cloud, const Paint& paint, const 
     splat.depth += splat.radius;  // the discs around it do not bury it
     splat.radius = static_cast<float>(kind == Kind::Corner || kind == Kind::Peak ? 1.15 * marker : marker);
   }
+  if (lines != nullptr) {
+    // The discs of the surface do not bury them.
+    const double lift = std::min(largest, 1.5 * median) + marker;
+    append_lines(
+        *lines, [&](const Point& p) { return place(in_view(axes, frame.normalized(p))); }, marker, lift,
+        splats);
+  }
   return splats;
+}
+
+std::vector<LegendEntry> legend_of_lines(const FeatureGraph& graph) {
+  const auto borders = static_cast<std::size_t>(
+      std::count_if(graph.polylines.begin(), graph.polylines.end(),
+                    [](const Polyline& line) { return line.kind == LineKind::Border; }));
+  std::vector<LegendEntry> legend{
+      {color_of(Kind::Edge), grouped(graph.polylines.size() - borders) + " creases"}};
+  if (borders > 0) legend.push_back({color_of(Kind::Border), grouped(borders) + " borders"});
+  legend.push_back({color_of(Kind::Corner), grouped(graph.corners.size()) + " corners"});
+  return legend;
 }
 
 }  // namespace
@@ -300,7 +355,9 @@ Image draw_cloud(const PointCloud& cloud, const PictureOptions& options, Progres
     throw InvalidArgument(fmt::format("--size: found {},{}, expected {} to {} pixels each", options.width,
                                       options.height, smallest_side, largest_side));
   }
-  const Paint paint = paint_of(cloud, options.color);
+  Paint paint = paint_of(cloud, options.color, options.lines != nullptr);
+  if (options.lines != nullptr)
+    for (LegendEntry& entry : legend_of_lines(*options.lines)) paint.legend.push_back(std::move(entry));
   const double line = 12 * dot_for(options.width);
   const int bar = paint.range ? static_cast<int>(1.4 * line) : 0;
   const int above = caption_height(options.caption, options.width);
@@ -308,8 +365,8 @@ Image draw_cloud(const PointCloud& cloud, const PictureOptions& options, Progres
   SplatOptions splat_options;
   splat_options.width = options.width;
   splat_options.height = std::max(smallest_side / 4, options.height - above - legend - bar);
-  const std::vector<Splat> splats =
-      splats_of(cloud, paint, options.camera, splat_options.width, splat_options.height, progress);
+  const std::vector<Splat> splats = splats_of(cloud, paint, options.camera, options.lines,
+                                              splat_options.width, splat_options.height, progress);
 
   Image image(options.width, options.height);
   paste(image, draw_splats(splats, splat_options, progress), 0, above);

@@ -9,14 +9,18 @@
 
 namespace keenline {
 
+struct FeatureGraph;
+
 struct PictureOptions {
   Camera camera;
   int width = 800;   ///< pixels, 64 to 8192
   int height = 600;  ///< with caption and legend
   /// Attribute that the points are coloured by. "kind" and "truth_kind" have a colour for each Kind and bring
   /// sharp points and borders to the front; others are shown from their smallest to their largest finite
-  /// value. Empty = kind where the cloud has it, else one colour.
+  /// value. Empty = kind where the cloud has it and no lines are drawn, else one colour.
   std::string color;
+  /// Drawn in front of the surface that they lie on, corners as balls; it must outlive the drawing.
+  const FeatureGraph* lines = nullptr;
   std::string caption;  ///< one line; empty = none
 };
 

@@ -224,4 +224,27 @@ double RevolvedFace::hit(const Ray& ray) const {
   return no_hit;
 }
 
+Box MovedFace::bounds() const {
+  const Box local = face_->bounds();
+  Box box;
+  box.include(frame_.point(local.low));
+  box.include(frame_.point(local.high));
+  return box;
+}
+
+Vec3 MovedFace::random_point(RandomStream& random) const { return frame_.point(face_->random_point(random)); }
+
+void MovedFace::add_lattice(double spacing, std::vector<Vec3>& points, const Progress& progress) const {
+  const std::size_t first = points.size();
+  face_->add_lattice(spacing, points, progress);
+  for (std::size_t i = first; i < points.size(); ++i) points[i] = frame_.point(points[i]);
+}
+
+double MovedFace::hit(const Ray& ray) const {
+  const auto local = [&](const Vec3& d) {
+    return Vec3{dot(d, frame_.x), dot(d, frame_.y), dot(d, frame_.z)};
+  };
+  return face_->hit({local(ray.origin - frame_.origin), local(ray.direction)});
+}
+
 }  // namespace keenline::synth

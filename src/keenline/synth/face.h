@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "keenline/progress.h"
@@ -84,6 +86,25 @@ class RevolvedFace final : public Face {
   Curve turn_;
   double largest_radius_ = 0;
   Box bounds_;
+};
+
+/// Another face, moved.
+class MovedFace final : public Face {
+ public:
+  /// \param frame of axes that are coordinate axes, so that bounds stay tight: where the face's own
+  /// coordinates lie in space
+  MovedFace(const Frame& frame, std::unique_ptr<const Face> face) : frame_(frame), face_(std::move(face)) {}
+
+  [[nodiscard]] double area() const override { return face_->area(); }
+  [[nodiscard]] Box bounds() const override;
+  [[nodiscard]] bool is_curved() const override { return face_->is_curved(); }
+  [[nodiscard]] Vec3 random_point(RandomStream& random) const override;
+  void add_lattice(double spacing, std::vector<Vec3>& points, const Progress& progress) const override;
+  [[nodiscard]] double hit(const Ray& ray) const override;
+
+ private:
+  Frame frame_;
+  std::unique_ptr<const Face> face_;
 };
 
 }  // namespace keenline::synth

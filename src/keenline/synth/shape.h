@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "keenline/synth/curve.h"
@@ -16,6 +17,8 @@ struct Shape {
   std::vector<Curve> borders;  ///< rims of an open surface: not sharp
   std::vector<Vec3> corners;   ///< where three edges meet or two meet at an angle
   std::vector<Vec3> peaks;     ///< sharp points that lie on no edge
+  /// Edges as they were drawn before they were rounded: beside the surface, and not sharp.
+  std::vector<Curve> designed;
 
   [[nodiscard]] double area() const;
   [[nodiscard]] Box bounds() const;
@@ -46,8 +49,10 @@ class ShapeBuilder {
   /// Polygons of vertex numbers; each pair of neighbours in a polygon is an edge.
   void polygons(const std::vector<Vec3>& vertices, const std::vector<std::vector<std::size_t>>& polygons);
 
+  void face(std::unique_ptr<const Face> face) { shape_.faces.push_back(std::move(face)); }
   void edge(const Curve& curve) { shape_.edges.push_back(curve); }
   void border(const Curve& curve) { shape_.borders.push_back(curve); }
+  void designed(const Curve& curve) { shape_.designed.push_back(curve); }
 
   /// Finds the corners and hands the shape over.
   [[nodiscard]] Shape finish() &&;

@@ -32,6 +32,38 @@ Shape build_cube(double /*angle*/) { return box_of(1, 1, 1); }
 
 Shape build_box(double /*angle*/) { return box_of(3, 2, 1); }
 
+/// A ball that rolls inside a cube touches this: squares, quarters of cylinders and eighths of spheres.
+Shape build_rounded_cube(double /*angle*/) {
+  constexpr double radius = 0.045;
+  constexpr double inner = 0.5 - radius;
+  const std::array<Vec3, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
+  ShapeBuilder builder;
+  for (const Frame& frame :
+       {Frame{}, Frame{{}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, Frame{{}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}) {
+    const auto add = [&](auto face) { builder.face(std::make_unique<MovedFace>(frame, std::move(face))); };
+    for (const double z : {-0.5, 0.5})
+      add(std::make_unique<PlaneFace>(Frame{.origin = {0, 0, z}},
+                                      std::vector<Outline>{rectangle(inner, inner)}));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& from = quarters[i];
+      const Vec3& to = quarters[(i + 1) % 4];
+      const Vec3 axis = inner * (from + to);
+      const Curve turn = Curve::arc(from, to, {});
+      add(std::make_unique<RevolvedFace>(axis, Curve::segment({radius, -inner, 0}, {radius, inner, 0}),
+                                         turn));
+      const Vec3 corner = 0.5 * (from + to);
+      builder.designed(Curve::segment(corner + Vec3{0, 0, -0.5}, corner + Vec3{0, 0, 0.5}).mapped(frame));
+      if (frame.z.z == 0) continue;
+      for (const double side : {-1.0, 1.0}) {
+        const Curve profile =
+            Curve::arc({radius, side * inner, 0}, {0, side * 0.5, 0}, {0, side * inner, 0}, {0, 0, side});
+        builder.face(std::make_unique<RevolvedFace>(axis, profile, turn));
+      }
+    }
+  }
+  return std::move(builder).finish();
+}
+
 Shape build_plane(double /*angle*/) {
   ShapeBuilder builder;
   builder.cap({rectangle(0.5, 0.5)}, 0);
@@ -191,6 +223,8 @@ constexpr std::array rows{
     ShapeRow{{"plane", "unit square: nothing sharp, four borders", {}}, build_plane},
     ShapeRow{{"crease", "two squares that meet at a dihedral angle", AngleRange{1, 359, 90}}, build_crease},
     ShapeRow{{"cube", "side 1", {}}, build_cube},
+    ShapeRow{{"rounded-cube", "side 1, edges rounded with radius 0.045; true lines are the edges before", {}},
+             build_rounded_cube},
     ShapeRow{{"box", "sides 3, 2, 1", {}}, build_box},
     ShapeRow{{"icosahedron", "20 triangles of side 2", {}}, build_icosahedron},
     ShapeRow{{"cylinder", "radius 1, height 2, closed", {}}, build_cylinder},

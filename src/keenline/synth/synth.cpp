@@ -127,6 +127,8 @@ PointCloud labelled_cloud(const Shape& shape, const synth::Scan& scan, const Syn
 
 std::vector<TruthCurve> truth_curves(const Shape& shape, double spacing) {
   std::vector<TruthCurve> curves = polylines_of(shape.edges, shape.corners, spacing);
+  std::vector<TruthCurve> designed = polylines_of(shape.designed, corners_of(shape.designed), spacing);
+  std::move(designed.begin(), designed.end(), std::back_inserter(curves));
   std::vector<TruthCurve> borders = polylines_of(shape.borders, {}, spacing);
   for (TruthCurve& border : borders) border.border = true;
   std::move(borders.begin(), borders.end(), std::back_inserter(curves));
@@ -155,6 +157,7 @@ SynthCloud synthesize(const SynthOptions& options, Progress& progress) {
   result.cloud = labelled_cloud(shape, samples, options, result.spacing, progress);
   result.curves = truth_curves(shape, result.spacing);
   for (const Vec3& corner : shape.corners) result.corners.push_back(corner.point());
+  for (const Vec3& corner : synth::corners_of(shape.designed)) result.corners.push_back(corner.point());
   for (const Vec3& peak : shape.peaks) result.peaks.push_back(peak.point());
   return result;
 }

@@ -77,7 +77,8 @@ struct SynthCloud {
 /// corner or peak (infinite when there is none); truth_feature: 1 where that is at most feature_band * h;
 /// truth_kind, a number of Kind: within the same band of a corner Corner, else of a peak Peak, of an edge
 /// Edge, of a border Border; elsewhere Flat or Curved, as the face is. Where faces join smoothly there is no
-/// edge. \throw InvalidArgument for an unknown shape or an option out of range; Cancelled.
+/// edge: the attributes of a rounded shape know none, only its curves and corners are those it had before it
+/// was rounded. \throw InvalidArgument for an unknown shape or an option out of range; Cancelled.
 [[nodiscard]] SynthCloud synthesize(const SynthOptions& options, Progress& progress = no_progress());
 
 }  // namespace keenline

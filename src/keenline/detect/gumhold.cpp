@@ -1,0 +1,180 @@
+#include "keenline/detect/gumhold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "keenline/cloud.h"
+#include "keenline/detect/pattern_penalties.h"
+#include "keenline/errors.h"
+#include "keenline/lines/spanning_pattern.h"
+#include "keenline/memory.h"
+#include "keenline/neighborhood/local_offsets.h"
+#include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/neighborhood/neighborhoods.h"
+
+namespace keenline {
+namespace {
+
+void validate(const GumholdOptions& options) {
+  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
+    if (!ok) throw InvalidArgument(fmt::format("{}: found {}, expected {}", name, found, expected));
+  };
+  require_neighbor_count(options.neighbors);
+  require(options.crease_limit >= 0 && options.crease_limit <= 2, "crease_limit", options.crease_limit,
+          "0 to 2");
+  require(options.border_gap_deg >= 0 && options.border_gap_deg <= 360, "border_gap_deg",
+          options.border_gap_deg, "0 to 360 degrees");
+  if (options.shortest_cycle)
+    require(*options.shortest_cycle >= 1, "shortest_cycle", *options.shortest_cycle, "1 or more");
+}
+
+class Detector {
+ public:
+  Detector(const PointCloud& cloud, const NeighborSearch& search, const GumholdOptions& options,
+           Progress& progress)
+      : positions_(cloud.positions),
+        search_(search),
+        options_(options),
+        progress_(progress),
+        penalties_((require_memory(cloud.size() * sizeof(PointPenalties), "penalties"), cloud.size())) {}
+
+  FeatureLabels run() {
+    search_.for_each_block(
+        options_.neighbors,
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          look_at(points, neighborhoods);
+        },
+        progress_);
+    choose_rule();
+    const SpanningPattern creases =
+        pattern_of([&](std::uint32_t a, std::uint32_t b) { return is_decided(a) && is_decided(b); },
+                   [&](std::uint32_t a, std::uint32_t b, const Way& way) {
+                     return edge_crease_penalty(penalties_[a], penalties_[b], way.direction, rule_);
+                   },
+                   options_.crease_limit);
+    SpanningPattern borders =
+        pattern_of([&](std::uint32_t a, std::uint32_t b) { return may_be_border(a) && may_be_border(b); },
+                   [&](std::uint32_t a, std::uint32_t b, const Way& way) {
+                     return edge_border_penalty(penalties_[a], penalties_[b], way.direction, rule_);
+                   },
+                   no_limit);
+    borders.keep_loops();
+    return labels_of(creases, borders);
+  }
+
+ private:
+  static constexpr double no_limit = 3;  // no penalty is above 2
+
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(positions_.size()); }
+
+  [[nodiscard]] bool is_decided(std::size_t i) const { return penalties_[i].distance > 0; }
+  [[nodiscard]] bool may_be_border(std::size_t i) const {
+    return is_decided(i) && penalties_[i].gap_deg > options_.border_gap_deg;
+  }
+
+  void look_at(std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+    progress_.check();
+    LocalOffsets local;
+    std::vector<double> angles;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto neighbors = neighborhoods.of(i);
+      if (neighbors.size() < static_cast<std::size_t>(options_.neighbors)) continue;
+      penalties_[points[i]] = point_penalties(positions_, points[i], neighbors, local, angles);
+    }
+  }
+
+  void choose_rule() {
+    if (!options_.plain) return;
+    rule_.curvature_share = 0.2;
+    rule_.literal_direction = true;
+    // The largest curvature of all, made independent of the scale by each point's own distance.
+    double largest = 0;
+    for (const PointPenalties& p : penalties_) largest = std::max(largest, p.bend);
+    if (largest > 0) rule_.full_bend = largest;
+  }
+
+  /// Of the edges that `may` allows and whose penalty is below the limit; their weight is the penalty and the
+  /// length.
+  template <typename May, typename Penalty>
+  [[nodiscard]] SpanningPattern pattern_of(const May& may, const Penalty& penalty, double limit) {
+    std::vector<WeightedEdge> edges;
+    std::mutex mutex;
+    search_.for_each_block(
+        options_.neighbors,
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          progress_.check();
+          std::vector<WeightedEdge> found;
+          LocalOffsets local;
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            for (const std::uint32_t neighbor : neighborhoods.of(i)) {
+              const auto [a, b] = std::minmax(points[i], neighbor);
+              if (!may(a, b)) continue;
+              const Way way = way_between(positions_, penalties_, a, b, local);
+              const double p = penalty(a, b, way);
+              if (p < limit) found.push_back({a, b, p + way.relative_length});
+            }
+          }
+          const std::lock_guard lock(mutex);
+          edges.insert(edges.end(), found.begin(), found.end());  // in any order: the pattern has its own
+        },
+        progress_);
+    const std::size_t cycle = shortest_cycle();
+    SpanningPattern pattern(size(), std::move(edges), cycle, progress_);
+    pattern.drop_components_below(cycle);
+    pattern.prune_chains_below((cycle + 1) / 2);
+    return pattern;
+  }
+
+  [[nodiscard]] std::size_t shortest_cycle() const {
+    if (options_.shortest_cycle) return static_cast<std::size_t>(*options_.shortest_cycle);
+    const auto points = std::count_if(penalties_.begin(), penalties_.end(),
+                                      [](const PointPenalties& p) { return p.distance > 0; });
+    return std::max<std::size_t>(3, static_cast<std::size_t>(std::sqrt(static_cast<double>(points)) / 2));
+  }
+
+  [[nodiscard]] FeatureLabels labels_of(const SpanningPattern& creases,
+                                        const SpanningPattern& borders) const {
+    FeatureLabels labels;
+    for (std::uint32_t i = 0; i < size(); ++i) {
+      labels.kind.push_back(kind_of(i, creases.degree_of(i), borders.degree_of(i)));
+      labels.score.push_back(is_decided(i) ? static_cast<float>(1 - crease_penalty(penalties_[i], rule_))
+                                           : 0);
+    }
+    return labels;
+  }
+
+  [[nodiscard]] Kind kind_of(std::size_t i, std::size_t crease_degree, std::size_t border_degree) const {
+    if (!is_decided(i)) return Kind::Undecided;
+    if (crease_degree > 0) return crease_degree > 2 ? Kind::Corner : Kind::Edge;
+    if (border_degree > 0) return Kind::Border;
+    constexpr double bend_of_sphere = 0.1;  // whose radius is five times the reach of the neighbourhood
+    return penalties_[i].bend > bend_of_sphere ? Kind::Curved : Kind::Flat;
+  }
+
+  const std::vector<Point>& positions_;
+  const NeighborSearch& search_;
+  const GumholdOptions& options_;
+  Progress& progress_;
+  std::vector<PointPenalties> penalties_;
+  PenaltyRule rule_;
+};
+
+}  // namespace
+
+FeatureLabels detect_gumhold(const PointCloud& cloud, const NeighborSearch& search,
+                             const GumholdOptions& options, Progress& progress) {
+  validate(options);
+  progress.begin("gumhold", cloud.size() * 3);
+  return Detector(cloud, search, options, progress).run();
+}
+
+}  // namespace keenline

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "keenline/cloud.h"
+#include "keenline/feature_graph.h"
+#include "keenline/vectors.h"
+
+namespace keenline {
+
+/// Where lines are traced: lengths in spacings of the cloud, from an origin near the features. So a cloud may
+/// lie anywhere and have any scale, and all constants are plain numbers.
+struct TraceFrame {
+  Point origin{};
+  double spacing = 1;
+
+  [[nodiscard]] Point local(const Point& p) const { return scaled(1 / spacing, difference(p, origin)); }
+  [[nodiscard]] Point global(const Point& p) const { return sum(origin, scaled(spacing, p)); }
+};
+
+/// A place on a line, as one neighbourhood shows it.
+struct Foot {
+  Point position{};
+  Point tangent{};                 ///< unit vector
+  std::array<Point, 2> normals{};  ///< unit normals, of any sign, of two planes that meet in the line here
+  double scale = 1;                ///< spacing of the points around
+  double quality = 0;              ///< 0 to 1: how much of the neighbourhood the planes explain
+  std::uint32_t point = 0;         ///< a point of the cloud nearby
+  bool is_backed = false;          ///< the detector found a point nearby
+};
+
+/// Feet one after another, a spacing apart.
+struct Path {
+  std::vector<Foot> feet;
+  bool closed = false;
+  LineKind kind = LineKind::Crease;
+};
+
+}  // namespace keenline

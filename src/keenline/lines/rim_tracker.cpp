@@ -1,0 +1,150 @@
+#include "keenline/lines/rim_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keenline/kernels/portable_math.h"
+#include "keenline/kernels/symmetric3.h"
+#include "keenline/neighborhood/local_offsets.h"
+#include "keenline/vectors.h"
+
+namespace keenline {
+namespace {
+
+// Lengths in spacings of the points around.
+constexpr int window_size = 12;  // a border point every spacing: six to each side
+constexpr int surface_neighbors = 24;
+constexpr double reach = 5;  // of what counts
+constexpr int least_points = 4;
+constexpr double largest_shift = 1;  // from where the rim was expected
+constexpr double largest_gap = 2.5;  // from a place on the rim to a border point
+constexpr double roundest = 0.2;     // squared width per squared length of what is still a line
+
+std::vector<std::uint32_t> border_points(const FeatureLabels& labels) {
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t i = 0; i < labels.size(); ++i)
+    if (labels.kind[i] == Kind::Border) points.push_back(i);
+  return points;
+}
+
+std::vector<Point> positions_of(const std::vector<std::uint32_t>& points, const PointCloud& cloud) {
+  std::vector<Point> positions;
+  positions.reserve(points.size());
+  for (const std::uint32_t i : points) positions.push_back(cloud.positions[i]);
+  return positions;
+}
+
+/// The surface around a border point.
+struct Surface {
+  std::vector<Point> offsets;  // of its neighbours, in spacings of the points around
+  Point normal{};
+  double spacing = 0;  // in the unit of the cloud
+};
+
+std::optional<Surface> surface_at(std::uint32_t point, const PointCloud& cloud,
+                                  const NeighborSearch& search) {
+  const auto neighbors = search.nearest(point, surface_neighbors);
+  LocalOffsets local;
+  if (neighbors.size() < surface_neighbors || !local.gather(cloud.positions, point, neighbors))
+    return std::nullopt;
+  Surface surface;
+  surface.normal = kernels::eigen_decomposition(scatter_of(local.offsets())).vectors[2];
+  const double spacing = length(local.offsets().back()) * std::sqrt(kernels::pi / (surface_neighbors + 0.5));
+  for (const Point& offset : local.offsets()) surface.offsets.push_back(scaled(1 / spacing, offset));
+  surface.spacing = spacing * local.unit();
+  return surface;
+}
+
+/// Does the surface end at the line through `foot`, given relative to its middle? What lies past it, and
+/// what on a line of points, is not its rim.
+bool ends_at(const Surface& surface, const Point& foot, const Point& outward) {
+  constexpr double clear = 0.75;  // from the rim; noise and bends carry points past it
+  constexpr int most_past = 1;
+  constexpr int fewest_inside = 6;
+  int positive = 0;
+  int negative = 0;
+  for (const Point& offset : surface.offsets) {
+    const double v = dot(outward, difference(offset, foot));
+    positive += v > clear ? 1 : 0;
+    negative += v < -clear ? 1 : 0;
+  }
+  return std::min(positive, negative) <= most_past && std::max(positive, negative) >= fewest_inside;
+}
+
+}  // namespace
+
+RimTracker::RimTracker(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
+                       const TraceFrame& frame, const Progress& progress)
+    : cloud_(cloud),
+      search_(search),
+      frame_(frame),
+      points_(border_points(labels)),
+      positions_(positions_of(points_, cloud)),
+      rim_search_(positions_, progress) {}
+
+std::optional<Foot> RimTracker::find(std::uint32_t border_point) const {
+  return fit(border_point, frame_.local(positions_[border_point]));
+}
+
+std::optional<Foot> RimTracker::follow(const Foot& from, const Point& expected) const {
+  std::uint32_t nearest = from.point;
+  double least = distance(frame_.local(positions_[nearest]), expected);
+  for (const std::uint32_t q : rim_search_.nearest(from.point, window_size)) {
+    const double d = distance(frame_.local(positions_[q]), expected);
+    if (d < least) {
+      least = d;
+      nearest = q;
+    }
+  }
+  std::optional<Foot> foot = fit(nearest, expected);
+  if (foot && dot(foot->tangent, from.tangent) < 0) foot->tangent = scaled(-1, foot->tangent);
+  return foot;
+}
+
+std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& expected) const {
+  const auto surface = surface_at(points_[border_point], cloud_, search_);
+  if (!surface) return std::nullopt;
+  const double scale = surface->spacing / frame_.spacing;
+  std::vector<std::uint32_t> window = rim_search_.nearest(border_point, window_size);
+  window.push_back(border_point);
+  double weights = 0;
+  int count = 0;
+  double gap = reach;
+  Point mean{};
+  kernels::Symmetric3 scatter;
+  for (const std::uint32_t q : window) {
+    const Point d = scaled(1 / scale, difference(frame_.local(positions_[q]), expected));
+    const double r = dot(d, d) / (reach * reach);
+    if (r >= 1) continue;
+    const double w = (1 - r) * (1 - r);
+    ++count;
+    weights += w;
+    mean = sum(mean, scaled(w, d));
+    add_square(scatter, d, w);
+    gap = std::min(gap, length(d));
+  }
+  if (count < least_points || gap > largest_gap) return std::nullopt;
+  mean = scaled(1 / weights, mean);
+  add_square(scatter, mean, -weights);
+  const kernels::Eigen3 eigen = kernels::eigen_decomposition(scatter);
+  if (eigen.values[1] > roundest * eigen.values[0]) return std::nullopt;
+  Foot foot;
+  foot.tangent = eigen.vectors[0];
+  const Point shift = difference(mean, scaled(dot(mean, foot.tangent), foot.tangent));
+  if (length(shift) > largest_shift) return std::nullopt;
+  foot.position = sum(expected, scaled(scale, shift));
+  const Point outward = cross(foot.tangent, surface->normal);
+  if (!(length(outward) > 0.5)) return std::nullopt;  // the line leaves the surface
+  foot.normals[1] = unit(outward);
+  foot.normals[0] = cross(foot.normals[1], foot.tangent);
+  foot.scale = scale;
+  const Point from_middle =
+      scaled(1 / scale, difference(foot.position, frame_.local(positions_[border_point])));
+  if (!ends_at(*surface, from_middle, foot.normals[1])) return std::nullopt;
+  foot.quality = 1 - eigen.values[1] / eigen.values[0];
+  foot.point = border_point;
+  foot.is_backed = true;
+  return foot;
+}
+
+}  // namespace keenline

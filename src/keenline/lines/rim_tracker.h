@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "keenline/cloud.h"
+#include "keenline/labels.h"
+#include "keenline/lines/foot.h"
+#include "keenline/lines/tracker.h"
+#include "keenline/neighborhood/neighbor_search.h"
+
+namespace keenline {
+
+/// Finds the rim of an open surface among the points that the detector took for border: a straight line
+/// fitted to the 12 of them around. Its planes are that of the surface and the one that ends it.
+class RimTracker : public Tracker {
+ public:
+  /// What is given must outlive this. \throw OutOfMemory; Cancelled
+  RimTracker(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
+             const TraceFrame& frame, const Progress& progress);
+
+  /// The border points, by which the feet and find() are numbered.
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+  [[nodiscard]] std::optional<Foot> find(std::uint32_t border_point) const override;
+  [[nodiscard]] std::optional<Foot> follow(const Foot& from, const Point& expected) const override;
+
+ private:
+  [[nodiscard]] std::optional<Foot> fit(std::uint32_t border_point, const Point& expected) const;
+
+  const PointCloud& cloud_;
+  const NeighborSearch& search_;
+  TraceFrame frame_;
+  std::vector<std::uint32_t> points_;  // of the cloud
+  std::vector<Point> positions_;
+  NeighborSearch rim_search_;
+};
+
+}  // namespace keenline

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "keenline/cloud.h"
+
+namespace keenline {
+
+/// A smooth surface near one place: its height over a plane is a polynomial. All lengths are counted in
+/// spacings from the origin, so that neither the scale nor the place of the cloud costs digits.
+struct SideSurface {
+  Point origin{};  ///< in the cloud's own coordinates
+  double spacing = 1;
+  Point x{1, 0, 0};  ///< x and y span the plane, z is up; unit vectors perpendicular to each other
+  Point y{0, 1, 0};
+  Point z{0, 0, 1};
+  std::array<double, 6> height{};  ///< factors of 1, x, y, y², x y, x²
+
+  [[nodiscard]] Point offset_of(const Point& position) const;
+
+  /// By how much the offset lies above the surface, along z.
+  [[nodiscard]] double above(const Point& offset) const;
+  /// Unit normal, on the side of z, where the surface is above or below the offset.
+  [[nodiscard]] Point normal(const Point& offset) const;
+  /// To first order, in spacings; positive on the side of z.
+  [[nodiscard]] double distance(const Point& offset) const;
+};
+
+/// Which of the factors may differ from 0: so many from the first.
+enum class SurfaceTerms : std::uint8_t { Plane = 3, BentAlongY = 4, Quadric = 6 };
+
+/// The polynomial over the plane of `frame` that fits best: least weighted sum of squared heights. None
+/// where the points do not determine it.
+/// \pre as many weights as offsets
+[[nodiscard]] std::optional<SideSurface> fit_surface(const SideSurface& frame, std::span<const Point> offsets,
+                                                     std::span<const double> weights, SurfaceTerms terms);
+
+}  // namespace keenline

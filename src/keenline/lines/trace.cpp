@@ -1,0 +1,209 @@
+#include "keenline/lines/trace.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "keenline/errors.h"
+#include "keenline/lines/foot_grid.h"
+#include "keenline/lines/junctions.h"
+#include "keenline/lines/rim_tracker.h"
+#include "keenline/lines/walk.h"
+#include "keenline/lines/wedge.h"
+
+namespace keenline {
+namespace {
+
+std::vector<Foot> find_feet(const Tracker& tracker, const std::vector<std::uint32_t>& candidates,
+                            Progress& progress) {
+  std::vector<std::optional<Foot>> found(candidates.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 64),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        progress.check();
+                        found[i] = tracker.find(candidates[i]);
+                      }
+                      progress.advance(range.size());
+                    });
+  std::vector<Foot> feet;
+  for (const auto& foot : found)
+    if (foot) feet.push_back(*foot);
+  return feet;
+}
+
+double median_quality(const std::vector<Foot>& feet) {
+  std::vector<double> qualities;
+  for (const Foot& foot : feet) qualities.push_back(foot.quality);
+  if (qualities.empty()) return 0;
+  const auto middle = qualities.begin() + static_cast<std::ptrdiff_t>(qualities.size() / 2);
+  std::nth_element(qualities.begin(), middle, qualities.end());
+  return *middle;
+}
+
+std::vector<Foot> better_than(double least, const std::vector<Foot>& feet) {
+  std::vector<Foot> better;
+  for (const Foot& foot : feet)
+    if (foot.quality >= least) better.push_back(foot);
+  return better;
+}
+
+/// Where a line bends, the surface beside it is broken: another crease may begin there that the detector has
+/// not found, because it is blunter.
+std::vector<std::uint32_t> points_beside_bends(const std::vector<Path>& paths, const PointCloud& cloud,
+                                               const NeighborSearch& search, const TraceFrame& frame) {
+  constexpr std::size_t step = 2;      // feet to each side
+  constexpr double least_turn = 0.94;  // cosine of 20 degrees
+  std::vector<std::uint32_t> points;
+  for (const Path& path : paths) {
+    if (path.feet.size() < 6) continue;
+    for (std::size_t i = 0; i < path.feet.size(); ++i) {
+      const bool at_end = !path.closed && (i == 0 || i + 1 == path.feet.size());
+      const bool bends = i >= step && i + step < path.feet.size() &&
+                         dot(path.feet[i - step].tangent, path.feet[i + step].tangent) < least_turn;
+      if (!bends && !at_end) continue;
+      const Foot& foot = path.feet[i];
+      for (const std::uint32_t q : search.nearest(foot.point, 40))
+        if (distance(frame.local(cloud.positions[q]), foot.position) > 2 * foot.scale) points.push_back(q);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+std::vector<std::uint32_t> points_of(std::initializer_list<Kind> kinds, const FeatureLabels& labels) {
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t i = 0; i < labels.size(); ++i)
+    if (std::find(kinds.begin(), kinds.end(), labels.kind[i]) != kinds.end()) points.push_back(i);
+  return points;
+}
+
+std::vector<Path> trace_creases(const PointCloud& cloud, const NeighborSearch& search,
+                                const FeatureLabels& labels, const std::vector<std::uint32_t>& candidates,
+                                const TraceFrame& frame, Progress& progress) {
+  const WedgeTracker tracker(cloud, search, labels, frame);
+  const std::vector<Foot> seeds = find_feet(tracker, candidates, progress);
+  const double usual = median_quality(seeds);
+  LineWalker walker(LineKind::Crease);
+  walker.walk(tracker, better_than(0.75 * usual, seeds), progress);
+  const auto beside = points_beside_bends(walker.paths(), cloud, search, frame);
+  walker.walk(tracker, better_than(0.9 * usual, find_feet(tracker, beside, no_progress())), no_progress());
+  return walker.paths();
+}
+
+std::vector<Path> trace_rims(const PointCloud& cloud, const NeighborSearch& search,
+                             const FeatureLabels& labels, const TraceFrame& frame, Progress& progress) {
+  const RimTracker tracker(cloud, search, labels, frame, progress);
+  std::vector<std::uint32_t> all(tracker.size());
+  std::iota(all.begin(), all.end(), 0U);
+  LineWalker walker(LineKind::Border);
+  walker.walk(tracker, find_feet(tracker, all, progress), progress);
+  return walker.paths();
+}
+
+/// How far a point is from the straight pieces at a vertex.
+double distance_to_pieces(const Point& p, const Polyline& line, std::size_t vertex) {
+  const std::size_t count = line.vertices.size();
+  double least = distance(p, line.vertices[vertex]);
+  const auto include = [&](std::size_t other) {
+    const Point along = difference(line.vertices[other], line.vertices[vertex]);
+    const double squared = dot(along, along);
+    if (!(squared > 0)) return;
+    const double t = std::clamp(dot(difference(p, line.vertices[vertex]), along) / squared, 0.0, 1.0);
+    least = std::min(least, distance(p, sum(line.vertices[vertex], scaled(t, along))));
+  };
+  if (vertex > 0 || line.closed) include(vertex > 0 ? vertex - 1 : count - 1);
+  if (vertex + 1 < count || line.closed) include(vertex + 1 < count ? vertex + 1 : 0);
+  return least;
+}
+
+/// Every candidate backs the nearest line of its kind, if that is near.
+void count_support(FeatureGraph& graph, const PointCloud& cloud, const std::vector<std::uint32_t>& candidates,
+                   LineKind kind, const TraceFrame& frame) {
+  constexpr double nearby = 1.5;
+  FootGrid vertices;
+  for (std::size_t l = 0; l < graph.polylines.size(); ++l) {
+    if (graph.polylines[l].kind != kind) continue;
+    for (std::size_t v = 0; v < graph.polylines[l].vertices.size(); ++v) {
+      Foot foot;
+      foot.position = frame.local(graph.polylines[l].vertices[v]);
+      vertices.insert({l, static_cast<std::ptrdiff_t>(v), foot});
+    }
+  }
+  for (const std::uint32_t candidate : candidates) {
+    const Point& p = cloud.positions[candidate];
+    if (!is_finite(p)) continue;
+    double least = nearby * frame.spacing;
+    Polyline* nearest = nullptr;
+    vertices.near(frame.local(p), 2 * nearby, [&](const FootGrid::Entry& entry) {
+      Polyline& line = graph.polylines[entry.path];
+      const double d = distance_to_pieces(p, line, static_cast<std::size_t>(entry.place));
+      if (d < least) {
+        least = d;
+        nearest = &line;
+      }
+    });
+    if (nearest != nullptr) ++nearest->support;
+  }
+}
+
+/// Of peaks that are close to each other the sharpest, where no line is near.
+void add_peaks(FeatureGraph& graph, const PointCloud& cloud, const FeatureLabels& labels,
+               std::vector<std::uint32_t> peaks, const TraceFrame& frame) {
+  constexpr double apart = 3;
+  FootGrid taken;
+  const auto take = [&](const Point& position) {
+    Foot foot;
+    foot.position = frame.local(position);
+    taken.insert({0, 0, foot});
+  };
+  for (const Polyline& line : graph.polylines)
+    for (const Point& vertex : line.vertices) take(vertex);
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return labels.score[a] > labels.score[b]; });
+  for (const std::uint32_t peak : peaks) {
+    const Point position = frame.local(cloud.positions[peak]);
+    bool is_free = true;
+    taken.near(position, apart, [&](const FootGrid::Entry& entry) {
+      is_free = is_free && distance(entry.foot.position, position) > apart;
+    });
+    if (!is_free) continue;
+    graph.corners.push_back({cloud.positions[peak], std::nullopt});
+    take(cloud.positions[peak]);
+  }
+}
+
+}  // namespace
+
+FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
+                         double spacing, const TraceOptions& options, Progress& progress) {
+  if (labels.size() != cloud.size())
+    throw InvalidArgument(fmt::format("{} labels for {} points", labels.size(), cloud.size()));
+  if (!(options.min_length >= 0))
+    throw InvalidArgument(fmt::format("min_length: found {}, expected 0 or more", options.min_length));
+  const std::vector<std::uint32_t> creases = points_of({Kind::Edge, Kind::Corner}, labels);
+  const std::vector<std::uint32_t> borders = points_of({Kind::Border}, labels);
+  const std::vector<std::uint32_t> peaks = points_of({Kind::Peak}, labels);
+  if (!(spacing > 0) || (creases.empty() && borders.empty() && peaks.empty())) return {};
+  const std::uint32_t first = !creases.empty() ? creases[0] : !borders.empty() ? borders[0] : peaks[0];
+  const TraceFrame frame{cloud.positions[first], spacing};
+  progress.begin("tracing lines", 2 * (creases.size() + borders.size()));
+  std::vector<Path> paths = trace_creases(cloud, search, labels, creases, frame, progress);
+  const std::vector<Path> rims = trace_rims(cloud, search, labels, frame, progress);
+  paths.insert(paths.end(), rims.begin(), rims.end());
+  FeatureGraph graph = connect_paths(std::move(paths), frame, options.min_length);
+  count_support(graph, cloud, creases, LineKind::Crease, frame);
+  count_support(graph, cloud, borders, LineKind::Border, frame);
+  add_peaks(graph, cloud, labels, peaks, frame);
+  return graph;
+}
+
+}  // namespace keenline

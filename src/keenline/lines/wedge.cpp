@@ -1,0 +1,330 @@
+#include "keenline/lines/wedge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "keenline/kernels/portable_math.h"
+#include "keenline/kernels/symmetric3.h"
+#include "keenline/lines/least_squares.h"
+#include "keenline/neighborhood/local_offsets.h"
+#include "keenline/vectors.h"
+
+namespace keenline {
+namespace {
+
+// Lengths in spacings of the points around, where nothing else is said.
+constexpr int window_size = 40;             // a radius of 3.6: some 20 points on each side
+constexpr std::size_t hypotheses = 24;      // from the points within 2.8
+constexpr std::size_t hypothesis_size = 8;  // a radius of 1.6: fits beside the crease
+constexpr double tolerance = 0.35;          // a point this far off a plane no longer belongs to it
+constexpr double smallest_sine = 0.17;      // planes within 10 degrees are one
+constexpr double near_crease = 1;           // planes of a candidate's crease pass so near to it
+constexpr double largest_shift = 1.5;       // from where a crease was expected
+constexpr double side_overlap = 0.5;        // by so much noise may carry points past the crease
+constexpr int least_points = 4;             // that fix a plane
+
+struct Plane {
+  Point normal{};
+  double offset = 0;  // normal . x = offset
+};
+
+double height(const Plane& plane, const Point& p) { return dot(plane.normal, p) - plane.offset; }
+
+/// Points about a point of the cloud, in local spacings.
+struct Window {
+  std::vector<std::uint32_t> points;
+  std::vector<Point> offsets;  // points.size(); the middle itself comes first
+  double scale = 1;            // local spacing in spacings of the cloud
+};
+
+/// Fewer than window_size neighbours are no window.
+std::optional<Window> window_around(std::uint32_t point, const std::vector<Point>& positions,
+                                    const NeighborSearch& search, double spacing) {
+  Window window;
+  window.points = search.nearest(point, window_size);
+  if (window.points.size() < window_size) return std::nullopt;
+  const Point& middle = positions[point];
+  const double radius = distance(positions[window.points.back()], middle);
+  const double local_spacing = radius * std::sqrt(kernels::pi / (window_size + 0.5));
+  window.points.insert(window.points.begin(), point);
+  window.offsets.reserve(window.points.size());
+  for (const std::uint32_t q : window.points)
+    window.offsets.push_back(scaled(1 / local_spacing, difference(positions[q], middle)));
+  window.scale = local_spacing / spacing;
+  return window;
+}
+
+/// Weighted sums of points, for planes.
+struct PlaneSums {
+  double weight = 0;
+  int count = 0;
+  Point first{};  // sum of w p
+  kernels::Symmetric3 second;
+
+  void add(const Point& p, double w) {
+    weight += w;
+    ++count;
+    first = sum(first, scaled(w, p));
+    add_square(second, p, w);
+  }
+
+  /// None where the points lie on one line.
+  [[nodiscard]] std::optional<Plane> plane() const {
+    if (count < least_points || !(weight > 0)) return std::nullopt;
+    const Point mean = scaled(1 / weight, first);
+    kernels::Symmetric3 scatter = second;
+    add_square(scatter, mean, -weight);
+    const kernels::Eigen3 eigen = kernels::eigen_decomposition(scatter);
+    constexpr double thinnest = 0.01;  // squared: a strip ten times as long as wide
+    if (!(eigen.values[1] > thinnest * eigen.values[0])) return std::nullopt;
+    const Point& normal = eigen.vectors[2];
+    return Plane{normal, dot(normal, mean)};
+  }
+};
+
+/// What a plane explains of a point: 1 on it, falling to 0 at the tolerance.
+double explained(double height) { return std::max(0.0, 1 - height * height / (tolerance * tolerance)); }
+
+/// The plane of a point of the window and its nearest there.
+std::optional<Plane> plane_at(const Window& window, std::size_t i) {
+  std::array<std::pair<double, std::size_t>, window_size + 1> order;
+  for (std::size_t j = 0; j < window.offsets.size(); ++j) {
+    const Point d = difference(window.offsets[j], window.offsets[i]);
+    order[j] = {dot(d, d), j};
+  }
+  std::nth_element(order.begin(), order.begin() + hypothesis_size - 1, order.end());
+  std::sort(order.begin(), order.begin() + hypothesis_size);
+  PlaneSums sums;
+  for (std::size_t j = 0; j < hypothesis_size; ++j) sums.add(window.offsets[order[j].second], 1);
+  return sums.plane();
+}
+
+using Planes = std::array<Plane, 2>;
+
+/// Of all pairs of hypotheses that pass near the middle the one that explains most.
+std::optional<Planes> best_pair(const Window& window) {
+  std::vector<Plane> planes;
+  std::vector<std::array<float, window_size + 1>> scores;
+  for (std::size_t i = 0; i < hypotheses; ++i) {
+    const std::optional<Plane> plane = plane_at(window, i);
+    if (!plane || std::abs(plane->offset) > near_crease) continue;
+    planes.push_back(*plane);
+    auto& score = scores.emplace_back();
+    for (std::size_t j = 0; j < window.offsets.size(); ++j)
+      score[j] = static_cast<float>(explained(height(*plane, window.offsets[j])));
+  }
+  std::optional<Planes> best;
+  float most = 0;
+  for (std::size_t a = 0; a < planes.size(); ++a) {
+    for (std::size_t b = a + 1; b < planes.size(); ++b) {
+      if (length(cross(planes[a].normal, planes[b].normal)) < smallest_sine) continue;
+      float total = 0;
+      for (std::size_t j = 0; j < window.offsets.size(); ++j) total += std::max(scores[a][j], scores[b][j]);
+      if (total > most) {
+        most = total;
+        best = Planes{planes[a], planes[b]};
+      }
+    }
+  }
+  return best;
+}
+
+/// Two half-planes that end at one line.
+struct Wedge {
+  Planes planes;
+  Point foot{};                   // on the line, nearest to where it was expected
+  Point tangent{};                // of the line
+  std::array<Point, 2> inward{};  // in each plane, away from the line
+};
+
+/// The line in which the planes meet; the half-planes are still unknown.
+std::optional<Wedge> meet(const Planes& planes, const Point& expected) {
+  const Point along = cross(planes[0].normal, planes[1].normal);
+  const double sine = length(along);
+  if (sine < smallest_sine) return std::nullopt;
+  Wedge wedge{planes, {}, scaled(1 / sine, along), {}};
+  const double cosine = dot(planes[0].normal, planes[1].normal);
+  const double first = -height(planes[0], expected);
+  const double second = -height(planes[1], expected);
+  const double a = (first - cosine * second) / (sine * sine);
+  const double b = (second - cosine * first) / (sine * sine);
+  wedge.foot = sum(expected, sum(scaled(a, planes[0].normal), scaled(b, planes[1].normal)));
+  return wedge;
+}
+
+std::size_t nearer_plane(const Planes& planes, const Point& p) {
+  return std::abs(height(planes[0], p)) <= std::abs(height(planes[1], p)) ? 0 : 1;
+}
+
+/// On which side of the line each plane has its points: by the sum of their coordinates.
+void choose_sides(Wedge& wedge, const Window& window) {
+  std::array<double, 2> balance{};
+  for (std::size_t i = 0; i < 2; ++i) wedge.inward[i] = cross(wedge.tangent, wedge.planes[i].normal);
+  for (const Point& p : window.offsets) {
+    const std::size_t i = nearer_plane(wedge.planes, p);
+    balance[i] += explained(height(wedge.planes[i], p)) * dot(wedge.inward[i], difference(p, wedge.foot));
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (balance[i] < 0) wedge.inward[i] = scaled(-1, wedge.inward[i]);
+}
+
+/// Fades out towards the border of the window, and sooner along the line, where planes cannot follow a bend.
+double weight_of(const Point& from_foot, const Point& tangent) {
+  constexpr double reach = 4.5;
+  constexpr double reach_along = 3;
+  const double u = dot(tangent, from_foot);
+  const double along = u * u / (reach_along * reach_along);
+  const double across = (dot(from_foot, from_foot) - u * u) / (reach * reach);
+  return along < 1 && across < 1 ? (1 - along) * (1 - along) * (1 - across) * (1 - across) : 0;
+}
+
+/// Points go to the half-plane that they are nearest to, planes to their points, by turns.
+std::optional<Wedge> refine(const Planes& start, const Window& window, const Point& expected) {
+  constexpr int rounds = 4;
+  std::optional<Wedge> wedge = meet(start, expected);
+  for (int round = 0; round < rounds && wedge; ++round) {
+    choose_sides(*wedge, window);
+    std::array<PlaneSums, 2> sums;
+    for (const Point& p : window.offsets) {
+      const std::size_t i = nearer_plane(wedge->planes, p);
+      const Point from_foot = difference(p, wedge->foot);
+      if (std::abs(height(wedge->planes[i], p)) > tolerance) continue;
+      if (dot(wedge->inward[i], from_foot) < -side_overlap) continue;
+      sums[i].add(p, weight_of(from_foot, wedge->tangent));
+    }
+    const auto first = sums[0].plane();
+    const auto second = sums[1].plane();
+    if (!first || !second) return std::nullopt;
+    wedge = meet({*first, *second}, expected);
+  }
+  if (wedge) choose_sides(*wedge, window);
+  return wedge;
+}
+
+/// Do both planes end at the line, and are there points of both beside the foot? The share of the window
+/// that the half-planes explain; 0 if not.
+double share_explained(const Wedge& wedge, const Window& window) {
+  constexpr double beside = 1.25;  // along the line
+  constexpr double across = 2.5;
+  constexpr double wrong_side = 0.25;  // share of a plane's points that chance may put past the line
+  double total = 0;
+  std::array<int, 2> all{};
+  std::array<int, 2> past{};
+  std::array<int, 2> close{};
+  for (const Point& p : window.offsets) {
+    const std::size_t i = nearer_plane(wedge.planes, p);
+    const double share = explained(height(wedge.planes[i], p));
+    if (share == 0) continue;
+    const Point from_foot = difference(p, wedge.foot);
+    const double inward = dot(wedge.inward[i], from_foot);
+    ++all[i];
+    if (inward < -side_overlap) {
+      ++past[i];
+      continue;
+    }
+    total += share;
+    if (inward < across && std::abs(dot(wedge.tangent, from_foot)) < beside) ++close[i];
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (close[i] == 0 || past[i] > wrong_side * all[i]) return 0;
+  return total / static_cast<double>(window.offsets.size());
+}
+
+/// Over the plane between the two: does w = k |v| + smooth explain the points better than w = k v^2 + smooth,
+/// with v across the line, u along it, and smooth = a + b u + c v + d u v + e u^2?
+bool is_kink(const Wedge& wedge, const Window& window) {
+  // Along the bisector of the two sides, and up.
+  const Point across = unit(difference(wedge.inward[0], wedge.inward[1]));
+  const Point up = cross(wedge.tangent, across);
+  LeastSquares<6> kink;
+  LeastSquares<6> smooth;
+  for (const Point& p : window.offsets) {
+    const std::size_t i = nearer_plane(wedge.planes, p);
+    if (std::abs(height(wedge.planes[i], p)) > 2 * tolerance) continue;
+    const Point d = difference(p, wedge.foot);
+    const double u = dot(wedge.tangent, d);
+    const double v = dot(across, d);
+    const double w = dot(up, d);
+    kink.add({std::abs(v), 1, u, v, u * v, u * u}, w);
+    smooth.add({v * v, 1, u, v, u * v, u * u}, w);
+  }
+  return kink.residual() < smooth.residual();
+}
+
+bool is_crease(const Wedge& wedge, const Window& window) {
+  // What turns by more than 60 degrees within the window is sharp, even if it is rounded.
+  constexpr double obtuse = -0.5;
+  return dot(wedge.inward[0], wedge.inward[1]) > obtuse || is_kink(wedge, window);
+}
+
+/// In the frame of the trace.
+Foot foot_of(const Wedge& wedge, const Window& window, const FeatureLabels& labels, const Point& middle) {
+  Foot foot;
+  foot.position = sum(middle, scaled(window.scale, wedge.foot));
+  foot.tangent = wedge.tangent;
+  foot.normals = {wedge.planes[0].normal, wedge.planes[1].normal};
+  foot.scale = window.scale;
+  foot.point = window.points[0];
+  constexpr double nearby = 1.5;
+  for (std::size_t j = 0; j < window.points.size() && !foot.is_backed; ++j) {
+    const Kind kind = labels.kind[window.points[j]];
+    foot.is_backed =
+        (kind == Kind::Edge || kind == Kind::Corner) && distance(window.offsets[j], wedge.foot) < nearby;
+  }
+  return foot;
+}
+
+}  // namespace
+
+std::optional<Foot> WedgeTracker::find(std::uint32_t point) const {
+  const auto window = window_around(point, cloud_.positions, search_, frame_.spacing);
+  if (!window) return std::nullopt;
+  const auto pair = best_pair(*window);
+  if (!pair) return std::nullopt;
+  const auto wedge = refine(*pair, *window, {});
+  if (!wedge || length(wedge->foot) > largest_shift) return std::nullopt;
+  const double quality = share_explained(*wedge, *window);
+  if (quality == 0 || !is_crease(*wedge, *window)) return std::nullopt;
+  Foot foot = foot_of(*wedge, *window, labels_, frame_.local(cloud_.positions[point]));
+  foot.quality = quality;
+  return foot;
+}
+
+std::optional<Foot> WedgeTracker::follow(const Foot& from, const Point& expected) const {
+  std::uint32_t nearest = from.point;
+  double least = distance(frame_.local(cloud_.positions[nearest]), expected);
+  for (const std::uint32_t q : search_.nearest(from.point, window_size)) {
+    const double d = distance(frame_.local(cloud_.positions[q]), expected);
+    if (d < least) {
+      least = d;
+      nearest = q;
+    }
+  }
+  const auto window = window_around(nearest, cloud_.positions, search_, frame_.spacing);
+  if (!window) return std::nullopt;
+  const Point middle = frame_.local(cloud_.positions[nearest]);
+  const Point start = scaled(1 / window->scale, difference(from.position, middle));
+  const Point goal = scaled(1 / window->scale, difference(expected, middle));
+  Planes planes;
+  for (std::size_t i = 0; i < 2; ++i) planes[i] = {from.normals[i], dot(from.normals[i], start)};
+  const auto accept = [&](std::optional<Wedge> wedge) -> std::optional<Foot> {
+    if (!wedge || distance(wedge->foot, goal) > near_crease) return std::nullopt;
+    const double quality = share_explained(*wedge, *window);
+    if (quality == 0 || !is_crease(*wedge, *window)) return std::nullopt;
+    if (dot(wedge->tangent, from.tangent) < 0) wedge->tangent = scaled(-1, wedge->tangent);
+    Foot foot = foot_of(*wedge, *window, labels_, middle);
+    foot.quality = quality;
+    return foot;
+  };
+  auto foot = accept(refine(planes, *window, goal));
+  // Where the line bends the old planes may hold on to too few points.
+  if (foot && foot->quality > 0.97 * from.quality) return foot;
+  const auto pair = best_pair(*window);
+  const auto fresh = pair ? accept(refine(*pair, *window, goal)) : std::nullopt;
+  return fresh && (!foot || fresh->quality > foot->quality) ? fresh : foot;
+}
+
+}  // namespace keenline
