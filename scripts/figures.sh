@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The figures of Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", made by the program alone, and
 # what the method does by itself.
-# docs/methods/gauss.md shows them and says what differs from the paper.
+# docs/methods/gauss.md shows them and says what differs from the paper. At the end what other methods see before they
+# decide, and what they decide.
 set -euo pipefail
 
 keenline=${1:?usage: scripts/figures.sh KEENLINE FOLDER}
@@ -91,3 +92,17 @@ for shape in cube fandisk; do
   add "default-$shape-noise-labels" "$shape, noise 10 % of the spacing"
 done
 sheet default --columns 3 --size 370,300
+
+# Demarsin and tensor voting: the score that each decides by, and the labels.
+for method in demarsin tensor_voting; do
+  name=${method//_/-}
+  for shape in cube fandisk icosahedron; do
+    cloud "$name-$shape" "$shape"
+    "$keenline" detect "$work/$name-$shape.ply" -o "$work/$name-$shape-labels.ply" --method "$method" --quiet
+    add "$name-$shape-labels" "$shape"
+  done
+  again=("${shown[@]}")
+  sheet "$name-score" --color score --columns 3 --size 370,270
+  shown=("${again[@]}")
+  sheet "$name" --columns 3 --size 370,270
+done

@@ -190,9 +190,11 @@ class Figures(FolderTest):
         result = subprocess.run([script, PROGRAM, self.path("figures")], capture_output=True, text=True, env=environment, timeout=600)
         self.assertEqual(result.returncode, 0, result.stderr)
         names = sorted(os.listdir(self.path("figures")))
-        self.assertEqual(names, ["default.png", "figure2-cube.png", "figure2-sphere.png", "figure4-fandisk.png", "figure4-icosahedron.png",
-                                 "figure5-bounding-box.png", "figure5-spacing.png", "figure6.png"])
-        shown = (script.parent.parent / "docs" / "methods" / "gauss.md").read_text()
+        self.assertEqual(names, ["default.png", "demarsin-score.png", "demarsin.png", "figure2-cube.png", "figure2-sphere.png", "figure4-fandisk.png", "figure4-icosahedron.png",
+                                 "figure5-bounding-box.png", "figure5-spacing.png", "figure6.png",
+                                 "tensor-voting-score.png", "tensor-voting.png"])
+        pages = (script.parent.parent / "docs" / "methods").glob("*.md")
+        shown = "".join(page.read_text() for page in pages)
         for name in names:
             self.assertIn(name, shown)
 

@@ -56,7 +56,8 @@ std::vector<float> scores_between(const SynthCloud& synth, const FeatureLabels& 
 
 double quantile(const std::vector<float>& sorted, double share) {
   EXPECT_FALSE(sorted.empty());
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  return static_cast<double>(
+      sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))]);
 }
 
 TEST(TensorVoting, FindsTheEdgesOfACubeAndNothingElse) {
