@@ -5,8 +5,9 @@
 # make figures   the paper's figures as PNG, in build/figures
 # make bench       speed: neighbours, detection, rivals, as ratios in one run
 # make benchmark   accuracy on the benchmark clouds, where they are present
+# make benchmark-lines   lines against the true lines of the shapes
 
-.PHONY: build demo test check figures bench benchmark format clean
+.PHONY: build demo test check figures bench benchmark benchmark-lines format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -40,6 +41,9 @@ bench:
 
 benchmark: build
 	bench/edge_benchmark.sh build/release/bin/keenline ../shared/data/edge-benchmark build/benchmark
+
+benchmark-lines: build
+	bench/lines_benchmark.sh build/release/bin/keenline build/lines
 
 format:
 	scripts/setup.sh check

@@ -1,12 +1,15 @@
 #include "keenline/pipeline.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+#include "keenline/io/graph_files.h"
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
 #include "keenline/synth/synth.h"
@@ -103,6 +106,76 @@ TEST(Pipeline, MistakesAreFoundBeforeTheWork) {
   job.method = "magic";
   EXPECT_THROW((void)run_detect(job), InvalidArgument);
   EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Pipeline, LinesOfACubeByItsOwnLabelsOrNewOnes) {
+  const TemporaryFolder folder;
+  LinesJob job;
+  job.input = cube_file(folder);
+  job.outputs = {folder.file("cube.json"), folder.file("cube.dxf")};
+  std::size_t told = 0;
+  const LinesReport report = run_lines(job, no_progress(), [&](const LinesReport& r) {
+    told = r.graph.polylines.size();
+    EXPECT_FALSE(std::filesystem::exists(job.outputs[0]));
+  });
+  EXPECT_EQ(told, 12U);
+  EXPECT_EQ(report.graph.corners.size(), 8U);
+  EXPECT_EQ(report.method, "gauss");
+  EXPECT_GT(report.detection.spacing, 0);
+  EXPECT_EQ(report.detection.options.at("neighbors"), 16);
+  EXPECT_GT(report.detection.times.lines_s, 0);
+  EXPECT_EQ(read_graph(job.outputs[0]).polylines.size(), 12U);
+  EXPECT_TRUE(std::filesystem::exists(job.outputs[1]));
+
+  DetectJob detect;
+  detect.input = job.input;
+  detect.output = folder.file("labelled.ply");
+  (void)run_detect(detect);
+  job.input = detect.output;
+  job.outputs = {folder.file("again.json")};
+  const LinesReport again = run_lines(job);
+  EXPECT_EQ(again.method, "");
+  EXPECT_EQ(again.detection.notes.size(), 1U);
+  EXPECT_EQ(TemporaryFolder::read(folder.file("again.json")),
+            TemporaryFolder::read(folder.file("cube.json")));
+  job.method = "gauss";
+  EXPECT_EQ(run_lines(job).method, "gauss");
+}
+
+TEST(Pipeline, LinesRefuseMistakesBeforeTheWork) {
+  const TemporaryFolder folder;
+  LinesJob job;
+  job.input = folder.file("does-not-exist");
+  test::expect_error<InvalidArgument>([&] { (void)run_lines(job); }, "output", ".dxf");
+  job.outputs = {folder.file("out.stl")};
+  EXPECT_THROW((void)run_lines(job), InvalidArgument);
+  job.outputs = {folder.file("no-folder/out.dxf")};
+  EXPECT_THROW((void)run_lines(job), OutputError);
+  job.outputs = {folder.file("out.dxf"), folder.file("./out.dxf")};
+  EXPECT_THROW((void)run_lines(job), InvalidArgument);
+  job.outputs = {folder.file("out.dxf")};
+  EXPECT_THROW((void)run_lines(job), InputError);
+  job.fit_spacings = -1;
+  test::expect_error<InvalidArgument>([&] { (void)run_lines(job); }, "--fit");
+  job.fit_spacings = 0;
+  job.resample_spacings = std::numeric_limits<double>::quiet_NaN();
+  test::expect_error<InvalidArgument>([&] { (void)run_lines(job); }, "--resample");
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Pipeline, LabelsOfACloudAreItsKindsOrItsFeatures) {
+  PointCloud cloud;
+  cloud.positions.resize(3);
+  EXPECT_FALSE(labels_of(cloud));
+  cloud.set_attribute(Column("feature", std::vector<double>{0, 1, -2.5}));
+  EXPECT_EQ(labels_of(cloud)->kind, (std::vector<Kind>{Kind::Flat, Kind::Edge, Kind::Edge}));
+  EXPECT_EQ(labels_of(cloud)->score, (std::vector<float>{1, 1, 1}));
+  cloud.set_attribute(Column("score", std::vector<double>{0.5, 2, 3}));
+  cloud.set_attribute(Column("kind", std::vector<std::int32_t>{255, 5, 3}));
+  EXPECT_EQ(labels_of(cloud)->kind, (std::vector<Kind>{Kind::Undecided, Kind::Border, Kind::Corner}));
+  EXPECT_EQ(labels_of(cloud)->score, (std::vector<float>{0.5F, 2, 3}));
+  cloud.set_attribute(Column("kind", std::vector<double>{1, 2.5, 3}));
+  EXPECT_FALSE(labels_of(cloud));
 }
 
 TEST(Pipeline, RelabellingGivesTheFileOfAFreshRun) {

@@ -13,6 +13,7 @@ using Action = std::function<void()>;
 
 /// Each adds its subcommand to `app` and stores what it does in `action` when the user chose it.
 void add_detect(CLI::App& app, Action& action);
+void add_lines(CLI::App& app, Action& action);
 void add_relabel(CLI::App& app, Action& action);
 void add_synth(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);

@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   keenline::cli::Action action;
   keenline::cli::add_detect(app, action);
+  keenline::cli::add_lines(app, action);
   keenline::cli::add_relabel(app, action);
   keenline::cli::add_synth(app, action);
   keenline::cli::add_evaluate(app, action);

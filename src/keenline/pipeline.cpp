@@ -1,5 +1,6 @@
 #include "keenline/pipeline.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <unistd.h>
@@ -10,9 +11,17 @@
 #include "keenline/detect/relabel.h"
 #include "keenline/detect/spectrum_attributes.h"
 #include "keenline/errors.h"
+#include "keenline/io/crs.h"
+#include "keenline/io/graph_files.h"
 #include "keenline/io/output_file.h"
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
+#include "keenline/lines/fit.h"
+#include "keenline/lines/resample.h"
+#include "keenline/lines/sides.h"
+#include "keenline/lines/smooth.h"
+#include "keenline/lines/snap.h"
+#include "keenline/lines/trace.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/smooth.h"
 #include "keenline/neighborhood/spacing.h"
@@ -74,6 +83,23 @@ void require_usable_output(const std::string& input, const std::string& output) 
   require_writable_folder(output);
 }
 
+void require_usable_drawings(const std::string& input, const std::vector<std::string>& outputs) {
+  if (outputs.empty())
+    throw InvalidArgument(
+        fmt::format("output: found none, expected a name that ends in {}", graph_extensions()));
+  for (const std::string& output : outputs) {
+    (void)find_graph_format(output);
+    require_different_files(input, output);
+    require_writable_folder(output);
+  }
+  require_distinct_outputs(outputs);
+}
+
+void require_not_negative(std::string_view name, double value) {
+  if (!(value >= 0 && value <= largest_graph_number))
+    throw InvalidArgument(fmt::format("--{}: found {}, expected 0 or more spacings", name, value));
+}
+
 /// Methods that have a spectrum to keep call the option so.
 bool keeps_spectrum(const OptionValues& options) {
   const auto found = options.find("spectrum");
@@ -114,6 +140,26 @@ BeforeCommit completing(Report& report, StopWatch& stage, StopWatch& total,
     report.times.total_s = total.lap_s();
     if (before_commit) before_commit(report);
   };
+}
+
+FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
+                      double spacing, const LinesJob& job, Progress& progress) {
+  if (!(spacing > 0)) return {};  // no surface, no lines
+  FeatureGraph graph = trace_lines(cloud, search, labels, spacing, {}, progress);
+  if (job.snap) graph = snap_lines(graph, cloud, search, spacing, {}, progress);
+  else if (job.smooth_lines) graph = smooth_lines(graph);
+  if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing);
+  if (job.fit_spacings > 0) graph = fit_lines(graph, job.fit_spacings * spacing, progress);
+  measure_sides(graph, cloud, search, spacing, progress);
+  return graph;
+}
+
+/// The number in every row; nothing for lists.
+std::optional<std::vector<double>> numbers_in(const Column* column) {
+  if (column == nullptr || column->is_list()) return std::nullopt;
+  std::vector<double> numbers(column->rows());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = column->value(i);
+  return numbers;
 }
 
 }  // namespace
@@ -170,6 +216,49 @@ RelabelReport run_relabel(const RelabelJob& job, Progress& progress,
   return report;
 }
 
+LinesReport run_lines(const LinesJob& job, Progress& progress,
+                      const std::function<void(const LinesReport&)>& before_commit) {
+  LinesReport report;
+  DetectReport& detection = report.detection;
+  const bool may_use_labels = job.method.empty() && job.options.empty();
+  const Method& method = job.method.empty() ? methods().front() : find_method(job.method);
+  detection.options = resolve_options(method, job.options);
+  require_usable_drawings(job.input, job.outputs);
+  require_not_negative("resample", job.resample_spacings);
+  require_not_negative("fit", job.fit_spacings);
+
+  StopWatch total;
+  StopWatch stage;
+  const Reading reading = read_cloud(job.input, progress);
+  detection.times.read_s = stage.lap_s();
+  const PointCloud& cloud = reading.cloud;
+  progress.begin("neighborhoods", 0);
+  const NeighborSearch search(cloud.positions, progress);
+  detection.times.neighborhoods_s = stage.lap_s();
+  std::optional<FeatureLabels> own;
+  if (may_use_labels) own = labels_of(cloud);
+  if (own) {
+    detection.options.clear();
+    detection.labels = std::move(*own);
+    detection.spacing = estimate_spacing(cloud, search);
+    detection.notes.push_back("the labels of the input are used; --method detects anew");
+  } else {
+    report.method = method.name;
+    detect_in(cloud, search, method, job.smoothing, detection, progress);
+  }
+  (void)stage.lap_s();
+  report.graph = lines_of(cloud, search, detection.labels, detection.spacing, job, progress);
+  detection.times.lines_s = stage.lap_s();
+  report.graph.crs = crs_of(cloud);
+  take_over(reading, detection);
+  write_graph(job.outputs, report.graph, progress, [&] {
+    detection.times.write_s = stage.lap_s();
+    detection.times.total_s = total.lap_s();
+    if (before_commit) before_commit(report);
+  });
+  return report;
+}
+
 std::vector<std::string> add_labels(PointCloud& cloud, const FeatureLabels& labels) {
   std::vector<std::uint8_t> feature;
   std::vector<std::uint8_t> kind;
@@ -193,6 +282,28 @@ std::vector<std::string> add_labels(PointCloud& cloud, const FeatureLabels& labe
     set_sigma_comment(cloud, labels.sigma_deg);
   }
   return replaced;
+}
+
+std::optional<FeatureLabels> labels_of(const PointCloud& cloud) {
+  FeatureLabels labels;
+  if (const auto kinds = numbers_in(cloud.attribute("kind"))) {
+    for (const double number : *kinds) {
+      const auto kind = std::find_if(all_kinds.begin(), all_kinds.end(),
+                                     [&](Kind k) { return static_cast<double>(k) == number; });
+      if (kind == all_kinds.end()) return std::nullopt;
+      labels.kind.push_back(*kind);
+    }
+  } else if (const auto features = numbers_in(cloud.attribute("feature"))) {
+    for (const double number : *features) labels.kind.push_back(number != 0 ? Kind::Edge : Kind::Flat);
+  } else {
+    return std::nullopt;
+  }
+  if (const auto scores = numbers_in(cloud.attribute("score"))) {
+    for (const double score : *scores) labels.score.push_back(static_cast<float>(score));
+  } else {
+    labels.score.assign(labels.size(), 1.0F);
+  }
+  return labels;
 }
 
 }  // namespace keenline

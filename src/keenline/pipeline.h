@@ -9,6 +9,7 @@
 #include "keenline/cloud.h"
 #include "keenline/detect/registry.h"
 #include "keenline/detect/relabel.h"
+#include "keenline/feature_graph.h"
 #include "keenline/io/formats.h"
 #include "keenline/labels.h"
 #include "keenline/progress.h"
@@ -40,6 +41,7 @@ struct StageTimes {
   double neighborhoods_s = 0;
   double smooth_s = 0;
   double detect_s = 0;
+  double lines_s = 0;  ///< of run_lines()
   double write_s = 0;
   double total_s = 0;
 };
@@ -96,10 +98,40 @@ struct RelabelReport {
 [[nodiscard]] RelabelReport run_relabel(const RelabelJob& job, Progress& progress = no_progress(),
                                         const std::function<void(const RelabelReport&)>& before_commit = {});
 
+/// From a file to a drawing: read, detect unless the file is labelled, trace, and what is asked for of snap,
+/// smooth, resample and fit; write.
+struct LinesJob {
+  std::string input;                 ///< a cloud, or what run_detect() wrote
+  std::vector<std::string> outputs;  ///< drawings, see graph_formats(); at least one
+  /// Empty: the labels of the input where it has some (see labels_of()), else the first of methods().
+  std::string method;
+  OptionValues options;  ///< as in DetectJob
+  Smoothing smoothing = Smoothing::Auto;
+  bool snap = true;          ///< onto the intersection of the surfaces, see snap_lines()
+  bool smooth_lines = true;  ///< see smooth_lines(); what is snapped needs none
+  double resample_spacings =
+      0;  ///< >= 0: distance of the vertices in spacings, see resample_lines(); 0 = as they are
+  double fit_spacings = 0;  ///< >= 0: tolerance of fit_lines() in spacings; 0 = no curves are fitted
+};
+
+struct LinesReport {
+  DetectReport detection;  ///< of labels that came with the input: no options, no noise
+  std::string method;      ///< empty: the labels came with the input
+  FeatureGraph graph;
+};
+
+/// `before_commit` as in run_detect(). \throw as run_detect()
+[[nodiscard]] LinesReport run_lines(const LinesJob& job, Progress& progress = no_progress(),
+                                    const std::function<void(const LinesReport&)>& before_commit = {});
+
 /// Adds the attributes feature (0/1), kind, score, where the method counts them clusters, and where it is
 /// kept the spectrum with its comment (see spectrum_columns()); replaces those of the same names and returns
 /// the names it replaced. Labels without scores leave the score as it is.
 /// \throw InvalidArgument unless labels.size() == cloud.size().
 std::vector<std::string> add_labels(PointCloud& cloud, const FeatureLabels& labels);
+
+/// The labels that a cloud carries: its attribute kind, or else feature, where what is not 0 is an edge; with
+/// its scores, if there are some. Nothing when it has neither, or when kind holds what is no Kind.
+[[nodiscard]] std::optional<FeatureLabels> labels_of(const PointCloud& cloud);
 
 }  // namespace keenline

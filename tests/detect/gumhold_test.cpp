@@ -16,7 +16,7 @@
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
 #include "keenline/feature_graph.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/synth/synth.h"
 
 #include "support/expect_error.h"
@@ -38,7 +38,7 @@ PointCloud shape(const std::string& name, std::uint64_t points, double noise_h =
 }
 
 FeatureLabels labels_of(const PointCloud& cloud, const GumholdOptions& options = {}) {
-  return detect_gumhold(cloud, find_neighborhoods(cloud, options.neighbors), options);
+  return detect_gumhold(cloud, NeighborSearch(cloud.positions), options);
 }
 
 std::size_t count(const FeatureLabels& labels, Kind kind) {
@@ -214,18 +214,17 @@ TEST(Gumhold, WhatCannotBeToldIsUndecided) {
 
 TEST(Gumhold, RefusesWhatIsOutOfRange) {
   const PointCloud cloud = shape("cube", 100);
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 16);
+  const NeighborSearch search(cloud.positions);
   const auto refuses = [&](const auto& change, std::string_view name) {
     GumholdOptions options;
     change(options);
-    expect_error<InvalidArgument>([&] { (void)detect_gumhold(cloud, neighborhoods, options); }, name);
+    expect_error<InvalidArgument>([&] { (void)detect_gumhold(cloud, search, options); }, name);
   };
   refuses([](GumholdOptions& o) { o.neighbors = 2; }, "neighbors");
   refuses([](GumholdOptions& o) { o.crease_limit = 2.1; }, "crease_limit");
   refuses([](GumholdOptions& o) { o.crease_limit = nan; }, "crease_limit");
   refuses([](GumholdOptions& o) { o.border_gap_deg = -1; }, "border_gap_deg");
   refuses([](GumholdOptions& o) { o.shortest_cycle = 0; }, "shortest_cycle");
-  EXPECT_THROW((void)detect_gumhold(cloud, Neighborhoods{}), InvalidArgument);
 }
 
 class Stopped : public Progress {
@@ -236,7 +235,7 @@ class Stopped : public Progress {
 TEST(Gumhold, CanBeCancelled) {
   const PointCloud cloud = shape("cube", 1000);
   Stopped progress;
-  EXPECT_THROW((void)detect_gumhold(cloud, find_neighborhoods(cloud, 16), {}, progress), Cancelled);
+  EXPECT_THROW((void)detect_gumhold(cloud, NeighborSearch(cloud.positions), {}, progress), Cancelled);
 }
 
 }  // namespace

@@ -80,23 +80,23 @@ TEST(PatternPenalties, OfEdgesAreLeastAlongTheCrease) {
   const PenaltyRule rule;
   const Point along{1, 0, 0};
   const Point across{0, 0, 1};
-  EXPECT_NEAR(crease_penalty(edge, edge, along, rule), 0.3 * 2 * 0.36, 0.005);
-  EXPECT_NEAR(crease_penalty(edge, edge, across, rule), 0.3 * 2 * 0.86, 0.005);
+  EXPECT_NEAR(edge_crease_penalty(edge, edge, along, rule), 0.3 * 2 * 0.36, 0.005);
+  EXPECT_NEAR(edge_crease_penalty(edge, edge, across, rule), 0.3 * 2 * 0.86, 0.005);
   EXPECT_NEAR(crease_penalty(edge, rule), 0.3 * 0.36, 0.003);
   const PointPenalties plane = penalties_of(test::ideal_edge(180));
-  EXPECT_NEAR(crease_penalty(plane, plane, along, rule), 2, 0.01);
+  EXPECT_NEAR(edge_crease_penalty(plane, plane, along, rule), 2, 0.01);
   EXPECT_NEAR(crease_penalty(plane, rule), 1, 0.01);
 
   const PenaltyRule paper{0.2, 1.8, true};
-  EXPECT_NEAR(crease_penalty(edge, edge, along, paper), 0.2 * 2 * 0.5 + 0.8 * 2 * 0.36, 0.01);
-  EXPECT_NEAR(crease_penalty(edge, edge, across, paper), 0.2 * 2 * 0.5, 0.01) << "why it is not used";
+  EXPECT_NEAR(edge_crease_penalty(edge, edge, along, paper), 0.2 * 2 * 0.5 + 0.8 * 2 * 0.36, 0.01);
+  EXPECT_NEAR(edge_crease_penalty(edge, edge, across, paper), 0.2 * 2 * 0.5, 0.01) << "why it is not used";
 }
 
 TEST(PatternPenalties, BordersAreLeastAlongTheRim) {
   const PointPenalties rim = penalties_of(test::ideal_border());
   const PenaltyRule rule;
-  EXPECT_NEAR(border_penalty(rim, rim, {1, 0, 0}, rule), 0.5 + 0.44, 0.01);
-  EXPECT_NEAR(border_penalty(rim, rim, {0, 1, 0}, rule), 0.5 + 1, 0.01);
+  EXPECT_NEAR(edge_border_penalty(rim, rim, {1, 0, 0}, rule), 0.5 + 0.44, 0.01);
+  EXPECT_NEAR(edge_border_penalty(rim, rim, {0, 1, 0}, rule), 0.5 + 1, 0.01);
 }
 
 TEST(PatternPenalties, WaysAreTheSameFromBothEnds) {

@@ -15,7 +15,7 @@
 
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
-#include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/synth/synth.h"
 
 #include "support/expect_error.h"
@@ -37,7 +37,7 @@ PointCloud shape(const std::string& name, std::uint64_t points, double noise_h =
 }
 
 FeatureLabels labels_of(const PointCloud& cloud, const PaulyOptions& options = {}) {
-  return detect_pauly(cloud, find_neighborhoods(cloud, options.largest_scale), options);
+  return detect_pauly(cloud, NeighborSearch(cloud.positions), options);
 }
 
 /// Of the unit cube about the origin: how far the point is from the nearest edge.
@@ -278,11 +278,11 @@ TEST(Pauly, WhatCannotBeToldIsUndecided) {
 
 TEST(Pauly, RefusesWhatIsOutOfRange) {
   const PointCloud cloud = shape("cube", 100);
-  const Neighborhoods neighborhoods = find_neighborhoods(cloud, 32);
+  const NeighborSearch search(cloud.positions);
   const auto refuses = [&](const auto& change, std::string_view name) {
     PaulyOptions options;
     change(options);
-    expect_error<InvalidArgument>([&] { (void)detect_pauly(cloud, neighborhoods, options); }, name);
+    expect_error<InvalidArgument>([&] { (void)detect_pauly(cloud, search, options); }, name);
   };
   refuses([](PaulyOptions& o) { o.smallest_scale = 2; }, "smallest_scale");
   refuses([](PaulyOptions& o) { o.largest_scale = 7; }, "largest_scale");
@@ -294,7 +294,6 @@ TEST(Pauly, RefusesWhatIsOutOfRange) {
   refuses([](PaulyOptions& o) { o.grow_share = 0.96; }, "grow_share");
   refuses([](PaulyOptions& o) { o.turn_deg = 91; }, "turn_deg");
   refuses([](PaulyOptions& o) { o.border_gap_deg = 361; }, "border_gap_deg");
-  EXPECT_THROW((void)detect_pauly(cloud, Neighborhoods{}), InvalidArgument);
 }
 
 class Stopped : public Progress {
@@ -305,7 +304,7 @@ class Stopped : public Progress {
 TEST(Pauly, CanBeCancelled) {
   const PointCloud cloud = shape("cube", 1000);
   Stopped progress;
-  EXPECT_THROW((void)detect_pauly(cloud, find_neighborhoods(cloud, 32), {}, progress), Cancelled);
+  EXPECT_THROW((void)detect_pauly(cloud, NeighborSearch(cloud.positions), {}, progress), Cancelled);
 }
 
 }  // namespace

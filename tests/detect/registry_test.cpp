@@ -173,8 +173,12 @@ TEST(Registry, PaulyOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(values.at("smallest-scale"), 15.0);
   EXPECT_EQ(values.at("variation"), 0.04);
   EXPECT_EQ(values.at("grow-share"), 0.7);
-  const PointCloud none;
-  EXPECT_EQ(pauly.detect(none, NeighborSearch(none.positions), values, no_progress()).size(), 0U);
+  const PointCloud cloud;
+  EXPECT_EQ(pauly.detect(cloud, NeighborSearch(cloud.positions), values, no_progress()).size(), 0U);
+  EXPECT_EQ(values.at("variation"), 0.04);
+  values.at("variation").reset();
+  (void)pauly.detect(cloud, NeighborSearch(cloud.positions), values, no_progress());
+  EXPECT_EQ(values.at("variation"), 0.01) << "what was chosen from the cloud";
 }
 
 TEST(Registry, GumholdOptionsAreThoseOfTheMethod) {
@@ -197,8 +201,8 @@ TEST(Registry, GumholdOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(adapted({{"crease-limit", 0.5}}, 5).at("crease-limit"), 0.5);
   EXPECT_EQ(gumhold.reach(adapted({{"neighbors", 20.0}}, 0)), 20);
   OptionValues given = adapted({{"shortest-cycle", 7.0}, {"plain", 1.0}}, 0);
-  const PointCloud none;
-  EXPECT_EQ(gumhold.detect(none, NeighborSearch(none.positions), given, no_progress()).size(), 0U);
+  const PointCloud cloud;
+  EXPECT_EQ(gumhold.detect(cloud, NeighborSearch(cloud.positions), given, no_progress()).size(), 0U);
 }
 
 TEST(Registry, DemarsinOptionsAreThoseOfTheMethod) {

@@ -4,25 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include "keenline/kernels/portable_math.h"
+
+#include "support/straight_path.h"
+
 namespace keenline {
 namespace {
 
-const TraceFrame frame{{100, 200, 300}, 0.5};
+using test::straight_path;
 
-/// Feet a spacing apart on the straight from `a` to `b`, on the planes of the two normals.
-Path straight(const Point& a, const Point& b, const Point& normal, const Point& other) {
-  Path path;
-  const Point along = unit(difference(b, a));
-  for (double t = 0; t <= distance(a, b); t += 1) {
-    Foot foot;
-    foot.position = sum(a, scaled(t, along));
-    foot.tangent = along;
-    foot.normals = {normal, other};
-    foot.is_backed = true;
-    path.feet.push_back(foot);
-  }
-  return path;
-}
+const TraceFrame frame{{100, 200, 300}, 0.5};
 
 constexpr Point x{1, 0, 0};
 constexpr Point y{0, 1, 0};
@@ -33,8 +24,8 @@ constexpr Point z{0, 0, 1};
 TEST(ConnectPaths, ThreeEndsMeetInTheCommonPointOfTheirPlanes) {
   // They stop short of the corner by different lengths, one runs past it.
   const FeatureGraph graph =
-      connect_paths({straight({1, 0, 0}, {20, 0, 0}, y, z), straight({0, 30, 0}, {0, 2, 0}, x, z),
-                     straight({0, 0, -1}, {0, 0, 20}, x, y)},
+      connect_paths({straight_path({1, 0, 0}, {20, 0, 0}, y, z), straight_path({0, 30, 0}, {0, 2, 0}, x, z),
+                     straight_path({0, 0, -1}, {0, 0, 20}, x, y)},
                     frame, 6);
   validate(graph);
   ASSERT_EQ(graph.corners.size(), 1U);
@@ -51,7 +42,7 @@ TEST(ConnectPaths, ThreeEndsMeetInTheCommonPointOfTheirPlanes) {
 
 TEST(ConnectPaths, EndsThatFaceEachOtherAreOneLine) {
   const FeatureGraph graph = connect_paths(
-      {straight({0, 0, 0}, {10, 0, 0}, y, z), straight({30, 0, 0}, {14, 0, 0}, y, z)}, frame, 6);
+      {straight_path({0, 0, 0}, {10, 0, 0}, y, z), straight_path({30, 0, 0}, {14, 0, 0}, y, z)}, frame, 6);
   validate(graph);
   ASSERT_EQ(graph.polylines.size(), 1U);
   EXPECT_TRUE(graph.corners.empty());
@@ -60,7 +51,8 @@ TEST(ConnectPaths, EndsThatFaceEachOtherAreOneLine) {
 
 TEST(ConnectPaths, ALineThatRunsIntoAnotherCutsIt) {
   const FeatureGraph graph = connect_paths(
-      {straight({-15, 0, 0}, {15, 0, 0}, y, z), straight({0.3, 20, 0}, {0.3, 2, 0}, x, z)}, frame, 6);
+      {straight_path({-15, 0, 0}, {15, 0, 0}, y, z), straight_path({0.3, 20, 0}, {0.3, 2, 0}, x, z)}, frame,
+      6);
   validate(graph);
   ASSERT_EQ(graph.corners.size(), 1U);
   EXPECT_LT(distance(graph.corners[0].position, frame.global({0.3, 0, 0})), 1e-2);
@@ -68,20 +60,63 @@ TEST(ConnectPaths, ALineThatRunsIntoAnotherCutsIt) {
 }
 
 TEST(ConnectPaths, ShortLinesWithLooseEndsAreNoise) {
-  EXPECT_TRUE(connect_paths({straight({0, 0, 0}, {5, 0, 0}, y, z)}, frame, 6).polylines.empty());
-  EXPECT_EQ(connect_paths({straight({0, 0, 0}, {7, 0, 0}, y, z)}, frame, 6).polylines.size(), 1U);
+  EXPECT_TRUE(connect_paths({straight_path({0, 0, 0}, {5, 0, 0}, y, z)}, frame, 6).polylines.empty());
+  EXPECT_EQ(connect_paths({straight_path({0, 0, 0}, {7, 0, 0}, y, z)}, frame, 6).polylines.size(), 1U);
   EXPECT_TRUE(connect_paths({}, frame, 6).polylines.empty());
 }
 
 TEST(ConnectPaths, AStretchThatTheDetectorDidNotSeeMustLeadToACorner) {
-  Path path = straight({0, 0, 0}, {30, 0, 0}, y, z);
+  Path path = straight_path({0, 0, 0}, {30, 0, 0}, y, z);
   for (std::size_t i = 20; i < path.feet.size(); ++i) path.feet[i].is_backed = false;
   const FeatureGraph loose = connect_paths({path}, frame, 6);
   ASSERT_EQ(loose.polylines.size(), 1U);
   EXPECT_NEAR(length_of(loose.polylines[0]), 0.5 * 19, 1e-9);
-  const FeatureGraph met = connect_paths({path, straight({31, 1, 0}, {31, 20, 0}, x, z)}, frame, 6);
+  const FeatureGraph met = connect_paths({path, straight_path({31, 1, 0}, {31, 20, 0}, x, z)}, frame, 6);
   ASSERT_EQ(met.polylines.size(), 2U);
   EXPECT_NEAR(length_of(met.polylines[0]), 0.5 * 31, 5e-3);
+}
+
+TEST(ConnectPaths, ALooseEndBesideACornerBelongsToIt) {
+  // The last path has run past the corner and aside.
+  const FeatureGraph graph =
+      connect_paths({straight_path({1, 0, 0}, {20, 0, 0}, y, z), straight_path({0, 1, 0}, {0, 20, 0}, x, z),
+                     straight_path({0, 0, 1}, {0, 0, 20}, x, y),
+                     straight_path({-20, -20, 1.3}, {-1, -1, 1.3}, {1, -1, 0}, z)},
+                    frame, 6);
+  validate(graph);
+  EXPECT_EQ(graph.corners.size(), 1U);
+  ASSERT_EQ(graph.polylines.size(), 4U);
+  for (const Polyline& line : graph.polylines) EXPECT_TRUE(line.start_corner || line.end_corner);
+}
+
+TEST(ConnectPaths, ALoopWithLinesIsCutAtItsCorners) {
+  Path loop;
+  loop.closed = true;
+  for (int i = 0; i < 60; ++i) {
+    const auto [sin, cos] = kernels::sin_cos(kernels::radians(6.0 * i));
+    Foot foot;
+    foot.position = {10 * cos, 10 * sin, 0};
+    foot.tangent = {-sin, cos, 0};
+    foot.normals = {z, Point{cos, sin, 0}};
+    foot.is_backed = true;
+    loop.feet.push_back(foot);
+  }
+  const Path spoke = straight_path({12, 0, 0}, {30, 0, 0}, y, z);
+  const FeatureGraph one = connect_paths({loop, spoke}, frame, 6);
+  validate(one);
+  EXPECT_EQ(one.corners.size(), 1U);
+  ASSERT_EQ(one.polylines.size(), 2U);
+  EXPECT_TRUE(one.polylines[0].closed);
+  EXPECT_EQ(one.polylines[0].start_corner, 0U);
+  const FeatureGraph two =
+      connect_paths({loop, spoke, straight_path({-30, 0, 0}, {-12, 0, 0}, y, z)}, frame, 6);
+  validate(two);
+  EXPECT_EQ(two.corners.size(), 2U);
+  ASSERT_EQ(two.polylines.size(), 4U);
+  for (const Polyline& line : two.polylines) EXPECT_FALSE(line.closed);
+  double length = 0;
+  for (const Polyline& line : two.polylines) length += length_of(line);
+  EXPECT_NEAR(length, 0.5 * (20 + 20 + 62.8), 0.5);
 }
 
 }  // namespace

@@ -36,10 +36,10 @@ class Circle : public Tracker {
 
 TEST(LineWalker, ClosesALoop) {
   const Circle circle(10);
-  LineWalker walker(circle, LineKind::Border);
+  LineWalker walker(LineKind::Border);
   // All seeds lie on one line: only the best starts it.
   const std::vector<Foot> seeds{circle.at({1, 0, 0}), circle.at({0, 1, 0}), circle.at({-1, 0.5, 0})};
-  walker.walk(seeds, no_progress());
+  walker.walk(circle, seeds, no_progress());
   ASSERT_EQ(walker.paths().size(), 1U);
   const Path& path = walker.paths()[0];
   EXPECT_TRUE(path.closed);
@@ -56,8 +56,8 @@ TEST(LineWalker, ClosesALoop) {
 
 TEST(LineWalker, WalksToBothEnds) {
   const Circle arc(10, 8.0);
-  LineWalker walker(arc, LineKind::Crease);
-  walker.walk(std::vector{arc.at({0.1, 1, 0})}, no_progress());
+  LineWalker walker(LineKind::Crease);
+  walker.walk(arc, std::vector{arc.at({0.1, 1, 0})}, no_progress());
   ASSERT_EQ(walker.paths().size(), 1U);
   const Path& path = walker.paths()[0];
   EXPECT_FALSE(path.closed);

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/pattern_penalties.h"
@@ -19,12 +18,11 @@
 #include "keenline/lines/spanning_pattern.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 
 namespace keenline {
 namespace {
-
-constexpr std::size_t block_size = 1024;
 
 void validate(const GumholdOptions& options) {
   const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
@@ -41,27 +39,32 @@ void validate(const GumholdOptions& options) {
 
 class Detector {
  public:
-  Detector(const PointCloud& cloud, const Neighborhoods& neighborhoods, const GumholdOptions& options,
+  Detector(const PointCloud& cloud, const NeighborSearch& search, const GumholdOptions& options,
            Progress& progress)
       : positions_(cloud.positions),
-        neighborhoods_(neighborhoods),
+        search_(search),
         options_(options),
         progress_(progress),
         penalties_((require_memory(cloud.size() * sizeof(PointPenalties), "penalties"), cloud.size())) {}
 
   FeatureLabels run() {
-    for_each_block([&](std::size_t first, std::size_t last) { look_at(first, last); });
+    search_.for_each_block(
+        options_.neighbors,
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          look_at(points, neighborhoods);
+        },
+        progress_);
     choose_rule();
     const SpanningPattern creases =
         pattern_of([&](std::uint32_t a, std::uint32_t b) { return is_decided(a) && is_decided(b); },
                    [&](std::uint32_t a, std::uint32_t b, const Way& way) {
-                     return crease_penalty(penalties_[a], penalties_[b], way.direction, rule_);
+                     return edge_crease_penalty(penalties_[a], penalties_[b], way.direction, rule_);
                    },
                    options_.crease_limit);
     SpanningPattern borders =
         pattern_of([&](std::uint32_t a, std::uint32_t b) { return may_be_border(a) && may_be_border(b); },
                    [&](std::uint32_t a, std::uint32_t b, const Way& way) {
-                     return border_penalty(penalties_[a], penalties_[b], way.direction, rule_);
+                     return edge_border_penalty(penalties_[a], penalties_[b], way.direction, rule_);
                    },
                    no_limit);
     borders.keep_loops();
@@ -73,37 +76,19 @@ class Detector {
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(positions_.size()); }
 
-  [[nodiscard]] std::span<const std::uint32_t> neighbors_of(std::size_t i) const {
-    const auto neighbors = neighborhoods_.of(i);
-    return neighbors.first(std::min(neighbors.size(), static_cast<std::size_t>(options_.neighbors)));
-  }
   [[nodiscard]] bool is_decided(std::size_t i) const { return penalties_[i].distance > 0; }
   [[nodiscard]] bool may_be_border(std::size_t i) const {
     return is_decided(i) && penalties_[i].gap_deg > options_.border_gap_deg;
   }
 
-  template <typename Visit>
-  void for_each_block(const Visit& visit) {
-    const std::size_t blocks = (positions_.size() + block_size - 1) / block_size;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 1),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t block = range.begin(); block < range.end(); ++block) {
-                          progress_.check();
-                          const std::size_t first = block * block_size;
-                          const std::size_t last = std::min(positions_.size(), first + block_size);
-                          visit(first, last);
-                          progress_.advance(last - first);
-                        }
-                      });
-  }
-
-  void look_at(std::size_t first, std::size_t last) {
+  void look_at(std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+    progress_.check();
     LocalOffsets local;
     std::vector<double> angles;
-    for (std::size_t i = first; i < last; ++i) {
-      const auto neighbors = neighbors_of(i);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto neighbors = neighborhoods.of(i);
       if (neighbors.size() < static_cast<std::size_t>(options_.neighbors)) continue;
-      penalties_[i] = point_penalties(positions_, i, neighbors, local, angles);
+      penalties_[points[i]] = point_penalties(positions_, points[i], neighbors, local, angles);
     }
   }
 
@@ -117,36 +102,31 @@ class Detector {
     if (largest > 0) rule_.full_bend = largest;
   }
 
-  /// Calls visit(a, b), a < b, for every edge of the neighbour graph that a point of the block is the first
-  /// to know of.
-  template <typename Visit>
-  void for_each_edge(std::size_t first, std::size_t last, const Visit& visit) const {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto own = static_cast<std::uint32_t>(i);
-      for (const std::uint32_t neighbor : neighbors_of(i)) {
-        const auto theirs = neighbors_of(neighbor);
-        const bool is_mutual = std::find(theirs.begin(), theirs.end(), own) != theirs.end();
-        if (!is_mutual || own < neighbor) visit(std::min(own, neighbor), std::max(own, neighbor));
-      }
-    }
-  }
-
   /// Of the edges that `may` allows and whose penalty is below the limit; their weight is the penalty and the
   /// length.
   template <typename May, typename Penalty>
   [[nodiscard]] SpanningPattern pattern_of(const May& may, const Penalty& penalty, double limit) {
-    std::vector<std::vector<WeightedEdge>> found((positions_.size() + block_size - 1) / block_size);
-    for_each_block([&](std::size_t first, std::size_t last) {
-      LocalOffsets local;
-      for_each_edge(first, last, [&](std::uint32_t a, std::uint32_t b) {
-        if (!may(a, b)) return;
-        const Way way = way_between(positions_, penalties_, a, b, local);
-        const double p = penalty(a, b, way);
-        if (p < limit) found[first / block_size].push_back({a, b, p + way.relative_length});
-      });
-    });
     std::vector<WeightedEdge> edges;
-    for (const auto& part : found) edges.insert(edges.end(), part.begin(), part.end());
+    std::mutex mutex;
+    search_.for_each_block(
+        options_.neighbors,
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          progress_.check();
+          std::vector<WeightedEdge> found;
+          LocalOffsets local;
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            for (const std::uint32_t neighbor : neighborhoods.of(i)) {
+              const auto [a, b] = std::minmax(points[i], neighbor);
+              if (!may(a, b)) continue;
+              const Way way = way_between(positions_, penalties_, a, b, local);
+              const double p = penalty(a, b, way);
+              if (p < limit) found.push_back({a, b, p + way.relative_length});
+            }
+          }
+          const std::lock_guard lock(mutex);
+          edges.insert(edges.end(), found.begin(), found.end());  // in any order: the pattern has its own
+        },
+        progress_);
     const std::size_t cycle = shortest_cycle();
     SpanningPattern pattern(size(), std::move(edges), cycle, progress_);
     pattern.drop_components_below(cycle);
@@ -181,7 +161,7 @@ class Detector {
   }
 
   const std::vector<Point>& positions_;
-  const Neighborhoods& neighborhoods_;
+  const NeighborSearch& search_;
   const GumholdOptions& options_;
   Progress& progress_;
   std::vector<PointPenalties> penalties_;
@@ -190,13 +170,11 @@ class Detector {
 
 }  // namespace
 
-FeatureLabels detect_gumhold(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+FeatureLabels detect_gumhold(const PointCloud& cloud, const NeighborSearch& search,
                              const GumholdOptions& options, Progress& progress) {
   validate(options);
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
   progress.begin("gumhold", cloud.size() * 3);
-  return Detector(cloud, neighborhoods, options, progress).run();
+  return Detector(cloud, search, options, progress).run();
 }
 
 }  // namespace keenline

@@ -7,7 +7,7 @@
 
 namespace keenline {
 
-struct Neighborhoods;
+class NeighborSearch;
 struct PointCloud;
 
 struct GumholdOptions {
@@ -36,9 +36,9 @@ struct GumholdOptions {
 /// The score is 1 minus the penalty of the point itself, 0 to 1. Paper: Gumhold, Wang, MacLeod 2001, "Feature
 /// Extraction from Point Clouds". Departures: see docs/methods/gumhold.md. Threads: any number, same bits.
 /// Cost: O(n neighbors), and O(m log m) on one thread for the m edges below the limit. Memory: 80 bytes per
-/// point, 16 for each of those edges. \pre neighborhoods.size() == cloud.size()
+/// point, 16 for each of those edges. \pre search is in the cloud's positions
 /// \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
-[[nodiscard]] FeatureLabels detect_gumhold(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+[[nodiscard]] FeatureLabels detect_gumhold(const PointCloud& cloud, const NeighborSearch& search,
                                            const GumholdOptions& options = {},
                                            Progress& progress = no_progress());
 

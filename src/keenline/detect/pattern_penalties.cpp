@@ -49,7 +49,7 @@ double curvature_penalty(const PointPenalties& point, const PenaltyRule& rule) {
   return std::max(0.0, 1 - point.bend / rule.full_bend);
 }
 
-double crease_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
+double edge_crease_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
                       const PenaltyRule& rule) {
   const auto line = [&](const PointPenalties& point) {
     return std::min(direction_penalty(point.crease, point.direction, way, rule), point.corner);
@@ -63,7 +63,7 @@ double crease_penalty(const PointPenalties& point, const PenaltyRule& rule) {
          (1 - rule.curvature_share) * std::min(point.crease, point.corner);
 }
 
-double border_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
+double edge_border_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
                       const PenaltyRule& rule) {
   constexpr double gap_share = 0.5;
   const auto gap = [](const PointPenalties& point) { return 1 - point.gap_deg / 360; };

@@ -10,8 +10,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/local_pca.h"
@@ -19,6 +17,7 @@
 #include "keenline/kernels/portable_math.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/vectors.h"
 
@@ -29,7 +28,7 @@ namespace {
 constexpr std::size_t min_scales = 3;
 
 /// The graph in which features grow, and in which a border needs others.
-constexpr std::size_t graph_neighbors = 16;
+constexpr int graph_neighbors = 16;
 
 /// A sector of 120 degrees is empty by chance at one of 500 points with so many neighbours in the plane; with
 /// 16, at one of 30.
@@ -84,10 +83,10 @@ struct Summary {
 
 class Detector {
  public:
-  Detector(const PointCloud& cloud, const Neighborhoods& neighborhoods, const PaulyOptions& options,
+  Detector(const PointCloud& cloud, const NeighborSearch& search, const PaulyOptions& options,
            Progress& progress)
       : positions_(cloud.positions),
-        neighborhoods_(neighborhoods),
+        search_(search),
         options_(options),
         progress_(progress),
         cosine_of_turn_(kernels::sin_cos(kernels::radians(options.turn_deg)).cos) {
@@ -100,19 +99,21 @@ class Detector {
   }
 
   FeatureLabels run() {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size(), 256),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        progress_.check();
-                        Workspace work;
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) look_at(i, work);
-                        progress_.advance(range.size());
-                      });
+    search_.for_each_block(
+        static_cast<int>(scales_.back()),
+        [&](std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
+          progress_.check();
+          Workspace work;
+          for (std::size_t i = 0; i < points.size(); ++i) look_at(points[i], neighborhoods.of(i), work);
+        },
+        progress_);
     const double limit = options_.variation ? *options_.variation : limit_from_cloud();
     const std::vector<bool> feature = grow(limit);
     FeatureLabels labels;
     labels.kind.resize(size());
-    for (std::size_t i = 0; i < size(); ++i) labels.kind[i] = kind_of(i, feature);
+    for (std::uint32_t i = 0; i < size(); ++i) labels.kind[i] = kind_of(i, feature);
     labels.score = std::move(mean_);
+    labels.threshold = limit;
     return labels;
   }
 
@@ -128,8 +129,7 @@ class Detector {
   }
 
   /// The limit is not known before all have been looked at.
-  void look_at(std::size_t i, Workspace& work) {
-    const auto neighbors = neighborhoods_.of(i);
+  void look_at(std::size_t i, std::span<const std::uint32_t> neighbors, Workspace& work) {
     Summary& summary = summary_[i];
     if (neighbors.size() < scales_.front() || !work.local.gather(positions_, i, neighbors)) return;
     const auto offsets = work.local.offsets();
@@ -194,11 +194,6 @@ class Detector {
     return static_cast<double>(above) / static_cast<double>(kept.size());
   }
 
-  [[nodiscard]] std::span<const std::uint32_t> graph_neighbors_of(std::size_t i) const {
-    const auto neighbors = neighborhoods_.of(i);
-    return neighbors.first(std::min(neighbors.size(), graph_neighbors));
-  }
-
   /// Hysteresis.
   [[nodiscard]] std::vector<bool> grow(double limit) {
     std::vector<bool> may_grow(size());
@@ -213,7 +208,7 @@ class Detector {
     while (!front.empty()) {
       const std::uint32_t i = front.back();
       front.pop_back();
-      for (const std::uint32_t j : graph_neighbors_of(i)) {
+      for (const std::uint32_t j : search_.nearest(i, graph_neighbors)) {
         if (!may_grow[j] || reached[j]) continue;
         reached[j] = true;
         front.push_back(j);
@@ -222,7 +217,7 @@ class Detector {
     return reached;
   }
 
-  [[nodiscard]] Kind kind_of(std::size_t i, const std::vector<bool>& feature) const {
+  [[nodiscard]] Kind kind_of(std::uint32_t i, const std::vector<bool>& feature) const {
     const Summary& summary = summary_[i];
     if (summary.scales == 0) return Kind::Undecided;
     if (feature[i]) return summary.is_corner ? Kind::Corner : Kind::Edge;
@@ -231,14 +226,14 @@ class Detector {
   }
 
   /// A rim goes on to both sides.
-  [[nodiscard]] bool is_among_borders(std::size_t i) const {
-    const auto neighbors = graph_neighbors_of(i);
+  [[nodiscard]] bool is_among_borders(std::uint32_t i) const {
+    const std::vector<std::uint32_t> neighbors = search_.nearest(i, graph_neighbors);
     return std::count_if(neighbors.begin(), neighbors.end(),
                          [&](std::uint32_t j) { return summary_[j].is_border; }) >= 2;
   }
 
   const std::vector<Point>& positions_;
-  const Neighborhoods& neighborhoods_;
+  const NeighborSearch& search_;
   const PaulyOptions& options_;
   Progress& progress_;
   double cosine_of_turn_;
@@ -250,13 +245,11 @@ class Detector {
 
 }  // namespace
 
-FeatureLabels detect_pauly(const PointCloud& cloud, const Neighborhoods& neighborhoods,
-                           const PaulyOptions& options, Progress& progress) {
+FeatureLabels detect_pauly(const PointCloud& cloud, const NeighborSearch& search, const PaulyOptions& options,
+                           Progress& progress) {
   validate(options);
-  if (neighborhoods.size() != cloud.size())
-    throw InvalidArgument(fmt::format("{} neighborhoods for {} points", neighborhoods.size(), cloud.size()));
   progress.begin("pauly", cloud.size());
-  return Detector(cloud, neighborhoods, options, progress).run();
+  return Detector(cloud, search, options, progress).run();
 }
 
 }  // namespace keenline

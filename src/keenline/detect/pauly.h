@@ -7,7 +7,7 @@
 
 namespace keenline {
 
-struct Neighborhoods;
+class NeighborSearch;
 struct PointCloud;
 
 struct PaulyOptions {
@@ -43,7 +43,7 @@ struct PaulyOptions {
 /// than smallest_scale neighbours are undecided. Threads: any number, same bits. Cost: O(n (largest_scale +
 /// scales)). Memory: 4 bytes per point and scale, 20 per point beside. \pre neighborhoods.size() ==
 /// cloud.size() \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
-[[nodiscard]] FeatureLabels detect_pauly(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+[[nodiscard]] FeatureLabels detect_pauly(const PointCloud& cloud, const NeighborSearch& search,
                                          const PaulyOptions& options = {},
                                          Progress& progress = no_progress());
 

@@ -97,12 +97,6 @@ FeatureLabels gauss_detect(const PointCloud& cloud, const NeighborSearch& search
   return labels;
 }
 
-/// For methods that look at the neighbours of a point more than once.
-Neighborhoods table_of(const NeighborSearch& search, int count, std::size_t points, Progress& progress) {
-  progress.begin("neighborhoods", points);
-  return search.all(count, progress);
-}
-
 constexpr OptionInfo border_gap_option{
     "border-gap",
     "Sector without neighbours that makes a border; 360 = no borders; auto = 120, for gumhold 100",
@@ -170,8 +164,9 @@ FeatureLabels pauly_detect(const PointCloud& cloud, const NeighborSearch& search
   options.grow_share = *values.at("grow-share");
   options.turn_deg = *values.at("turn");
   options.border_gap_deg = *values.at("border-gap");
-  return detect_pauly(cloud, table_of(search, pauly_reach(values), cloud.size(), progress), options,
-                      progress);
+  FeatureLabels labels = detect_pauly(cloud, search, options, progress);
+  values["variation"] = labels.threshold;
+  return labels;
 }
 
 constexpr std::array gumhold_options{
@@ -209,8 +204,7 @@ FeatureLabels gumhold_detect(const PointCloud& cloud, const NeighborSearch& sear
   options.border_gap_deg = *values.at("border-gap");
   if (const auto& cycle = values.at("shortest-cycle")) options.shortest_cycle = static_cast<int>(*cycle);
   options.plain = gumhold_is_plain(values);
-  return detect_gumhold(cloud, table_of(search, options.neighbors, cloud.size(), progress), options,
-                        progress);
+  return detect_gumhold(cloud, search, options, progress);
 }
 
 void adapt_nothing(OptionValues& /*values*/, double /*noise*/, std::size_t /*points*/) {}

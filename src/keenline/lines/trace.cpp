@@ -92,10 +92,10 @@ std::vector<Path> trace_creases(const PointCloud& cloud, const NeighborSearch& s
   const WedgeTracker tracker(cloud, search, labels, frame);
   const std::vector<Foot> seeds = find_feet(tracker, candidates, progress);
   const double usual = median_quality(seeds);
-  LineWalker walker(tracker, LineKind::Crease);
-  walker.walk(better_than(0.75 * usual, seeds), progress);
+  LineWalker walker(LineKind::Crease);
+  walker.walk(tracker, better_than(0.75 * usual, seeds), progress);
   const auto beside = points_beside_bends(walker.paths(), cloud, search, frame);
-  walker.walk(better_than(0.9 * usual, find_feet(tracker, beside, no_progress())), no_progress());
+  walker.walk(tracker, better_than(0.9 * usual, find_feet(tracker, beside, no_progress())), no_progress());
   return walker.paths();
 }
 
@@ -104,8 +104,8 @@ std::vector<Path> trace_rims(const PointCloud& cloud, const NeighborSearch& sear
   const RimTracker tracker(cloud, search, labels, frame, progress);
   std::vector<std::uint32_t> all(tracker.size());
   std::iota(all.begin(), all.end(), 0U);
-  LineWalker walker(tracker, LineKind::Border);
-  walker.walk(find_feet(tracker, all, progress), progress);
+  LineWalker walker(LineKind::Border);
+  walker.walk(tracker, find_feet(tracker, all, progress), progress);
   return walker.paths();
 }
 

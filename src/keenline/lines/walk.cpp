@@ -19,7 +19,6 @@ constexpr double same_line = 1.2;       // a path this close to another, in the 
 constexpr double same_direction = 0.8;  // cosine of 37 degrees
 constexpr double largest_turn = 0.82;   // cosine of 35 degrees, from one foot to the next
 constexpr int most_missed = 2;          // steps that may show no line before it has ended
-constexpr int most_unbacked = 64;  // feet far from all that the detector found: the line has ended for it
 constexpr std::ptrdiff_t smallest_loop = 8;  // steps; so far apart, a path does not meet itself
 
 /// Is the position beside the foot, and no farther than `aside` from its tangent?
@@ -32,7 +31,8 @@ bool is_beside(const Point& position, const Foot& foot, double aside) {
 
 }  // namespace
 
-void LineWalker::walk(std::span<const Foot> seeds, Progress& progress) {
+void LineWalker::walk(const Tracker& tracker, std::span<const Foot> seeds, Progress& progress) {
+  tracker_ = &tracker;
   std::vector<std::size_t> order(seeds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -74,7 +74,6 @@ bool LineWalker::is_covered(const Foot& seed) const {
 
 /// Appends feet as far as the line goes. True when it has come back to its start.
 bool LineWalker::go(std::vector<Foot>& feet, std::ptrdiff_t step) {
-  std::size_t backed = feet.size();  // so many up to the last that is backed
   for (;;) {
     const std::optional<Foot> next = next_foot(feet.back());
     if (!next) break;
@@ -85,11 +84,6 @@ bool LineWalker::go(std::vector<Foot>& feet, std::ptrdiff_t step) {
     }
     feet.push_back(*next);
     grid_.insert({paths_.size(), place, *next});
-    if (next->is_backed) backed = feet.size();
-    if (feet.size() > backed + most_unbacked) {
-      feet.resize(backed);
-      break;
-    }
   }
   return false;
 }
@@ -97,7 +91,7 @@ bool LineWalker::go(std::vector<Foot>& feet, std::ptrdiff_t step) {
 std::optional<Foot> LineWalker::next_foot(const Foot& from) const {
   for (int steps = 1; steps <= 1 + most_missed; ++steps) {
     const Point expected = sum(from.position, scaled(steps * from.scale, from.tangent));
-    const auto foot = tracker_.follow(from, expected);
+    const auto foot = tracker_->follow(from, expected);
     if (!foot || dot(foot->tangent, from.tangent) < largest_turn) continue;
     // A foot that falls back would let the walk go round on the spot.
     if (dot(difference(foot->position, from.position), from.tangent) < 0.3 * from.scale) continue;

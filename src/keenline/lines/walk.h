@@ -18,11 +18,11 @@ namespace keenline {
 class LineWalker {
  public:
   /// The tracker must outlive this.
-  LineWalker(const Tracker& tracker, LineKind kind) : tracker_(tracker), kind_(kind) {}
+  explicit LineWalker(LineKind kind) : kind_(kind) {}
 
   /// Advances `progress` by the seeds; the caller began the stage. Cost: O(seeds + length of the lines).
   /// \throw Cancelled
-  void walk(std::span<const Foot> seeds, Progress& progress);
+  void walk(const Tracker& tracker, std::span<const Foot> seeds, Progress& progress);
 
   [[nodiscard]] const std::vector<Path>& paths() const { return paths_; }
 
@@ -33,7 +33,7 @@ class LineWalker {
   [[nodiscard]] std::optional<Foot> next_foot(const Foot& from) const;
   [[nodiscard]] std::optional<FootGrid::Entry> meeting(const Foot& foot, std::ptrdiff_t place) const;
 
-  const Tracker& tracker_;
+  const Tracker* tracker_ = nullptr;
   LineKind kind_;
   FootGrid grid_;
   std::vector<Path> paths_;

@@ -255,7 +255,7 @@ bool is_kink(const Wedge& wedge, const Window& window) {
 }
 
 bool is_crease(const Wedge& wedge, const Window& window) {
-  // Sides that face each other by more than this are no smooth surface: cosine of 120 degrees.
+  // What turns by more than 60 degrees within the window is sharp, even if it is rounded.
   constexpr double obtuse = -0.5;
   return dot(wedge.inward[0], wedge.inward[1]) > obtuse || is_kink(wedge, window);
 }
@@ -319,9 +319,12 @@ std::optional<Foot> WedgeTracker::follow(const Foot& from, const Point& expected
     foot.quality = quality;
     return foot;
   };
-  if (auto foot = accept(refine(planes, *window, goal))) return foot;
-  const auto fresh = best_pair(*window);
-  return fresh ? accept(refine(*fresh, *window, goal)) : std::nullopt;
+  auto foot = accept(refine(planes, *window, goal));
+  // Where the line bends the old planes may hold on to too few points.
+  if (foot && foot->quality > 0.97 * from.quality) return foot;
+  const auto pair = best_pair(*window);
+  const auto fresh = pair ? accept(refine(*pair, *window, goal)) : std::nullopt;
+  return fresh && (!foot || fresh->quality > foot->quality) ? fresh : foot;
 }
 
 }  // namespace keenline
