@@ -150,7 +150,7 @@ TEST(Snap, BordersComeNearTheRim) {
 }
 
 TEST(Snap, FollowsRigidMotionAndScale) {
-  const LineScene scene(shape_options("through-hole", 4000, 0.05));
+  const LineScene scene(shape_options("through-hole", 2000, 0.05));
   const FeatureGraph rough = roughened(scene.truth, scene.spacing);
   const FeatureGraph graph = snapped(scene, rough);
   constexpr double scale = 0.125;
@@ -176,7 +176,7 @@ TEST(Snap, FollowsRigidMotionAndScale) {
 }
 
 TEST(Snap, IsTheSameForAnyNumberOfThreads) {
-  const LineScene scene(shape_options("through-hole", 3000, 0.05));
+  const LineScene scene(shape_options("through-hole", 2000, 0.05));
   const FeatureGraph rough = roughened(scene.truth, scene.spacing);
   const FeatureGraph first = snapped(scene, rough);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

@@ -199,13 +199,13 @@ class Refinement {
     SurfaceTerms terms;
   };
 
-  /// Distance of point `i` from `surface`, which is or could be side `s`; nothing for points that are not of
-  /// that side.
-  [[nodiscard]] std::optional<double> residual(std::size_t s, const SideSurface& surface,
-                                               std::size_t i) const {
+  /// Distance of point `i` from `fit`, which is or could be side `s`; nothing for points that are not of that
+  /// side, or farther from it than its tolerance.
+  [[nodiscard]] std::optional<double> residual(std::size_t s, const Fit& fit, std::size_t i) const {
     const Point& q = patch_.offsets[i];
-    if (patch_.across[i] < rim_ || !is_inside(surface, q)) return std::nullopt;
-    const double distance = surface.distance(q);
+    if (patch_.across[i] < rim_ || !is_inside(fit.surface, q)) return std::nullopt;
+    const double distance = fit.surface.distance(q);
+    if (std::abs(distance) >= fit.tolerance) return std::nullopt;
     for (std::size_t other = 0; other < fits_.size(); ++other) {
       const SideSurface& rival = fits_[other].surface;
       if (other == s || !is_inside(rival, q)) continue;
@@ -218,9 +218,9 @@ class Refinement {
   std::size_t weigh(std::size_t s, Fit& fit) {
     residuals_.clear();
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const std::optional<double> r = residual(s, fit.surface, i);
+      const std::optional<double> r = residual(s, fit, i);
       weights_[i] = 0;
-      if (!r || std::abs(*r) >= fit.tolerance) continue;
+      if (!r) continue;
       const double part = *r / fit.tolerance;
       weights_[i] = (1 - part * part) * (1 - part * part);
       residuals_.push_back(std::abs(*r));
@@ -298,8 +298,7 @@ class Refinement {
     std::vector<std::pair<double, double>> squares;
     residuals_.clear();
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const std::optional<double> distance = residual(s, asked.surface, i);
-      if (!distance || std::abs(*distance) >= asked.tolerance) continue;
+      if (!residual(s, asked, i)) continue;
       const double of_more = more.surface.distance(patch_.offsets[i]);
       const double of_fewer = fewer.surface.distance(patch_.offsets[i]);
       squares.emplace_back(of_more * of_more, of_fewer * of_fewer);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,10 @@ struct SideSurface {
   Point z{0, 0, 1};
   std::array<double, 6> height{};  ///< factors of 1, x, y, y², x y, x²
 
+  /// Level over the plane, as it is first laid through points.
+  [[nodiscard]] bool is_plane() const {
+    return std::all_of(height.begin() + 1, height.end(), [](double factor) { return factor == 0; });
+  }
   [[nodiscard]] Point offset_of(const Point& position) const;
 
   /// By how much the offset lies above the surface, along z.
@@ -27,6 +32,8 @@ struct SideSurface {
   [[nodiscard]] Point normal(const Point& offset) const;
   /// To first order, in spacings; positive on the side of z.
   [[nodiscard]] double distance(const Point& offset) const;
+  /// By how much the surface rises along x and y, where it is above or below the offset.
+  [[nodiscard]] std::array<double, 2> slopes(const Point& offset) const;
 };
 
 /// Which of the factors may differ from 0: so many from the first.

@@ -21,12 +21,11 @@ namespace keenline {
 namespace {
 
 // Lengths are in spacings.
-constexpr double largest_residual = 0.35;  // of what is credible: see find_sides()
-constexpr double least_determined =
-    0.0025;  // mean square of normals along a direction: half of sin² of 6 degrees / 2
-constexpr double least_step = 0.05;  // of a line from vertex to vertex
-constexpr double far_apart = 3;      // of vertices that cannot have changed places
-constexpr double neighbors = 3;      // along the line, whose sides are heard as well
+constexpr double largest_residual = 0.35;    // of what is credible: see find_sides()
+constexpr double least_determined = 0.0025;  // of the squares of unit normals: two that differ by 6 degrees
+constexpr double least_step = 0.05;          // of a line from vertex to vertex
+constexpr double far_apart = 3;              // of vertices that cannot have changed places
+constexpr double neighbors = 3;              // along the line, whose sides are heard as well
 
 using Sides = std::vector<std::optional<LineSides>>;  // of the vertices of a line
 
