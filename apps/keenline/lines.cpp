@@ -9,6 +9,7 @@
 #include "keenline/errors.h"
 #include "keenline/io/graph_files.h"
 #include "keenline/io/text.h"
+#include "keenline/lines/tracers.h"
 #include "keenline/memory.h"
 #include "keenline/pipeline.h"
 
@@ -39,6 +40,7 @@ void print_json_report(const LinesArguments& arguments, const LinesReport& repor
                         {"finite_points", detection.finite_points},
                         {"spacing", detection.spacing},
                         {"method", nullptr},
+                        {"trace", arguments.job.trace},
                         {"corners", counts.corners},
                         {"polylines", counts.polylines},
                         {"loops", counts.loops},
@@ -119,6 +121,13 @@ void add_lines(CLI::App& app, Action& action) {
       ->type_name("NAME");
   add_method_options(*command, methods(), arguments->method, "spectrum");
   add_smoothing_option(*command, job.smoothing);
+  std::string tracers = "How lines are drawn from the labels:";
+  for (const LineTracer& tracer : line_tracers())
+    tracers += fmt::format("{} {}", &tracer == &line_tracers().front() ? "" : ",", tracer.name);
+  command->add_option("--trace", job.trace, tracers)
+      ->capture_default_str()
+      ->type_name("NAME")
+      ->group("Lines");
   command
       ->add_flag("--snap,!--no-snap", job.snap,
                  "Move lines and corners onto the intersection of the surfaces that meet there (default on)")

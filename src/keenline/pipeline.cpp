@@ -21,7 +21,7 @@
 #include "keenline/lines/sides.h"
 #include "keenline/lines/smooth.h"
 #include "keenline/lines/snap.h"
-#include "keenline/lines/trace.h"
+#include "keenline/lines/tracers.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/smooth.h"
 #include "keenline/neighborhood/spacing.h"
@@ -145,7 +145,7 @@ BeforeCommit completing(Report& report, StopWatch& stage, StopWatch& total,
 FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
                       double spacing, const LinesJob& job, Progress& progress) {
   if (!(spacing > 0)) return {};  // no surface, no lines
-  FeatureGraph graph = trace_lines(cloud, search, labels, spacing, {}, progress);
+  FeatureGraph graph = find_tracer(job.trace).trace(cloud, search, labels, spacing, progress);
   if (job.snap) graph = snap_lines(graph, cloud, search, spacing, {}, progress);
   else if (job.smooth_lines) graph = smooth_lines(graph);
   if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing);
@@ -223,6 +223,7 @@ LinesReport run_lines(const LinesJob& job, Progress& progress,
   const bool may_use_labels = job.method.empty() && job.options.empty();
   const Method& method = job.method.empty() ? methods().front() : find_method(job.method);
   detection.options = resolve_options(method, job.options);
+  (void)find_tracer(job.trace);
   require_usable_drawings(job.input, job.outputs);
   require_not_negative("resample", job.resample_spacings);
   require_not_negative("fit", job.fit_spacings);

@@ -107,8 +107,9 @@ struct LinesJob {
   std::string method;
   OptionValues options;  ///< as in DetectJob
   Smoothing smoothing = Smoothing::Auto;
-  bool snap = true;          ///< onto the intersection of the surfaces, see snap_lines()
-  bool smooth_lines = true;  ///< see smooth_lines(); what is snapped needs none
+  std::string trace = "walk";  ///< a name from line_tracers()
+  bool snap = true;            ///< onto the intersection of the surfaces, see snap_lines()
+  bool smooth_lines = true;    ///< see smooth_lines(); what is snapped needs none
   double resample_spacings =
       0;  ///< >= 0: distance of the vertices in spacings, see resample_lines(); 0 = as they are
   double fit_spacings = 0;  ///< >= 0: tolerance of fit_lines() in spacings; 0 = no curves are fitted

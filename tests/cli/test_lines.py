@@ -78,6 +78,18 @@ class Lines(FolderTest):
         self.assertEqual(run_json("lines", self.path("labels.ply"), "-o", self.path("found.json"), "--method", "gauss")["method"], "gauss")
         self.assertEqual(run_json("lines", self.path("labels.ply"), "-o", self.path("found.json"), "--sigma", "20")["options"]["sigma"], 20)
 
+    def test_every_method_by_every_tracer(self):
+        source = self.shape("cube", 6000)
+        for method in run_json("methods")["methods"]:
+            self.done("detect", source, "--method", method["name"], "-o", self.path("labels.ply"))
+            for tracer in ("walk", "gumhold", "pauly", "demarsin", "tensor_voting"):
+                with self.subTest(method=method["name"], trace=tracer):
+                    report = run_json("lines", self.path("labels.ply"), "-o", self.path("out.json"), "--trace", tracer)
+                    self.assertEqual(report["trace"], tracer)
+                    self.assertAlmostEqual(report["length"], 12, delta=2.5)
+                    if tracer == "walk":
+                        self.assertEqual((report["corners"], report["polylines"], report["loose_ends"]), (8, 12, 0))
+
     def test_same_bytes_for_any_number_of_threads_and_every_time(self):
         source = self.shape("fandisk", 6000, "--noise", "0.05h")
         drawings = set()
@@ -122,6 +134,7 @@ class Lines(FolderTest):
         self.expect_refusal(run("lines", source, "-o", out, "--resample", "-1"), 2, "--resample")
         self.expect_refusal(run("lines", source, "-o", out, "--fit", "nan"), 2, "--fit")
         self.expect_refusal(run("lines", source, "-o", out, "--method", "magic"), 2, "magic")
+        self.expect_refusal(run("lines", source, "-o", out, "--trace", "magic"), 2, "magic", "walk")
         self.expect_refusal(run("lines", self.path("missing.ply"), "-o", out), 1, "missing.ply")
         self.expect_refusal(run("lines", source), 2, "output")
         self.assertEqual(self.names(), before)
