@@ -25,7 +25,7 @@ inline LabelledShape labelled_shape(const SynthOptions& options) {
   for (const std::uint8_t kind : cloud.attribute("truth_kind")->values<std::uint8_t>())
     shape.labels.kind.push_back(static_cast<Kind>(kind));
   shape.labels.score.assign(cloud.size(), 1.0F);
-  shape.spacing = estimate_spacing(cloud, find_neighborhoods(cloud, 16));
+  shape.spacing = estimate_spacing(cloud, NeighborSearch(cloud.positions));
   return shape;
 }
 
