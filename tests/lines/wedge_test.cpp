@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/kernels/portable_math.h"
+#include "keenline/lines/ends.h"
 
 #include "support/traced_shapes.h"
 
@@ -90,7 +91,7 @@ TEST(Wedge, FollowsTheCreaseToItsEndAndNoFarther) {
   for (const TruthCurve& curve : t.shape.synth.curves)
     if (!curve.border)
       for (const Point& vertex : curve.vertices) nearest = std::min(nearest, distance(vertex, end));
-  EXPECT_LT(nearest, 1.5 * t.shape.spacing);
+  EXPECT_LT(nearest, line_overrun * t.shape.spacing);  // by which ends may be taken back
 }
 
 TEST(Wedge, SeesNoCreaseInSmoothSurfaces) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "keenline/cloud.h"
@@ -27,7 +26,6 @@ struct Foot {
   std::array<Point, 2> normals{};  ///< unit normals, of any sign, of two planes that meet in the line here
   double scale = 1;                ///< spacing of the points around
   double quality = 0;              ///< 0 to 1: how much of the neighbourhood the planes explain
-  std::uint32_t point = 0;         ///< a point of the cloud nearby
   bool is_backed = false;          ///< the detector found a point nearby
 };
 

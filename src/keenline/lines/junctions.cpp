@@ -173,8 +173,8 @@ class CornerFinder {
     return nearest;
   }
 
-  /// The last feet of a walk have seen past the corner, and may point past it: loose ends belong to a corner
-  /// that is close to them in any direction.
+  /// The last feet of a walk have seen past the corner, and may point past it. So a loose end belongs to a
+  /// corner that is close to it in any direction, or ahead.
   void attach_strays(std::vector<Corner>& corners, const FootGrid& places) const {
     std::vector<std::array<bool, 2>> is_loose(paths_.size(), {true, true});
     for (const Corner& corner : corners)
@@ -183,8 +183,10 @@ class CornerFinder {
       if (paths_[p].closed || relative_length(paths_[p]) < shortest_) continue;
       for (const bool at_back : {false, true}) {
         if (!is_loose[p][at_back ? 1 : 0]) continue;
-        const Foot& foot = foot_at(paths_, {p, at_back});
-        const auto corner = corner_near(places, foot.position, stray * foot.scale);
+        const Ray ray = ray_from(paths_, {p, at_back});
+        auto corner = corner_near(places, ray.start, stray * ray.scale);
+        const Point ahead = sum(ray.start, scaled(line_reach * ray.scale, ray.direction));
+        if (!corner) corner = corner_near(places, ahead, stray * ray.scale);
         if (!corner) continue;
         corners[*corner].ends.push_back({p, at_back});
         settle(corners[*corner]);

@@ -87,16 +87,9 @@ std::optional<Foot> RimTracker::find(std::uint32_t border_point) const {
 }
 
 std::optional<Foot> RimTracker::follow(const Foot& from, const Point& expected) const {
-  std::uint32_t nearest = from.point;
-  double least = distance(frame_.local(positions_[nearest]), expected);
-  for (const std::uint32_t q : rim_search_.nearest(from.point, window_size)) {
-    const double d = distance(frame_.local(positions_[q]), expected);
-    if (d < least) {
-      least = d;
-      nearest = q;
-    }
-  }
-  std::optional<Foot> foot = fit(nearest, expected);
+  const auto nearest = rim_search_.nearest_to(frame_.global(expected), 1);
+  if (nearest.empty()) return std::nullopt;
+  std::optional<Foot> foot = fit(nearest[0], expected);
   if (foot && dot(foot->tangent, from.tangent) < 0) foot->tangent = scaled(-1, foot->tangent);
   return foot;
 }
@@ -105,14 +98,12 @@ std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& exp
   const auto surface = surface_at(points_[border_point], cloud_, search_);
   if (!surface) return std::nullopt;
   const double scale = surface->spacing / frame_.spacing;
-  std::vector<std::uint32_t> window = rim_search_.nearest(border_point, window_size);
-  window.push_back(border_point);
   double weights = 0;
   int count = 0;
   double gap = reach;
   Point mean{};
   kernels::Symmetric3 scatter;
-  for (const std::uint32_t q : window) {
+  for (const std::uint32_t q : rim_search_.nearest_to(frame_.global(expected), window_size)) {
     const Point d = scaled(1 / scale, difference(frame_.local(positions_[q]), expected));
     const double r = dot(d, d) / (reach * reach);
     if (r >= 1) continue;
@@ -142,7 +133,6 @@ std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& exp
       scaled(1 / scale, difference(foot.position, frame_.local(positions_[border_point])));
   if (!ends_at(*surface, from_middle, foot.normals[1])) return std::nullopt;
   foot.quality = 1 - eigen.values[1] / eigen.values[0];
-  foot.point = border_point;
   foot.is_backed = true;
   return foot;
 }

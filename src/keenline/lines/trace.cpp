@@ -70,7 +70,7 @@ std::vector<std::uint32_t> points_beside_bends(const std::vector<Path>& paths, c
                          dot(path.feet[i - step].tangent, path.feet[i + step].tangent) < least_turn;
       if (!bends && !at_end) continue;
       const Foot& foot = path.feet[i];
-      for (const std::uint32_t q : search.nearest(foot.point, 40))
+      for (const std::uint32_t q : search.nearest_to(frame.global(foot.position), 41))
         if (distance(frame.local(cloud.positions[q]), foot.position) > 2 * foot.scale) points.push_back(q);
     }
   }

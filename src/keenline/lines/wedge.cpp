@@ -16,7 +16,7 @@ namespace keenline {
 namespace {
 
 // Lengths in spacings of the points around, where nothing else is said.
-constexpr int window_size = 40;             // a radius of 3.6: some 20 points on each side
+constexpr int window_size = 41;             // a radius of 3.6: some 20 points on each side
 constexpr std::size_t hypotheses = 24;      // from the points within 2.8
 constexpr std::size_t hypothesis_size = 8;  // a radius of 1.6: fits beside the crease
 constexpr double tolerance = 0.35;          // a point this far off a plane no longer belongs to it
@@ -33,27 +33,27 @@ struct Plane {
 
 double height(const Plane& plane, const Point& p) { return dot(plane.normal, p) - plane.offset; }
 
-/// Points about a point of the cloud, in local spacings.
+/// The points around a place, in local spacings from there.
 struct Window {
   std::vector<std::uint32_t> points;
-  std::vector<Point> offsets;  // points.size(); the middle itself comes first
+  std::vector<Point> offsets;  // of the points
   double scale = 1;            // local spacing in spacings of the cloud
 };
 
-/// Fewer than window_size neighbours are no window.
-std::optional<Window> window_around(std::uint32_t point, const std::vector<Point>& positions,
-                                    const NeighborSearch& search, double spacing) {
+/// About a place in the frame. Fewer than window_size points are no window.
+std::optional<Window> window_at(const Point& place, const PointCloud& cloud, const NeighborSearch& search,
+                                const TraceFrame& frame) {
   Window window;
-  window.points = search.nearest(point, window_size);
+  const Point middle = frame.global(place);
+  window.points = search.nearest_to(middle, window_size);
   if (window.points.size() < window_size) return std::nullopt;
-  const Point& middle = positions[point];
-  const double radius = distance(positions[window.points.back()], middle);
-  const double local_spacing = radius * std::sqrt(kernels::pi / (window_size + 0.5));
-  window.points.insert(window.points.begin(), point);
+  const double radius = distance(cloud.positions[window.points.back()], middle);
+  const double local_spacing = radius * std::sqrt(kernels::pi / (window_size - 0.5));
+  if (!(local_spacing > 0)) return std::nullopt;
   window.offsets.reserve(window.points.size());
   for (const std::uint32_t q : window.points)
-    window.offsets.push_back(scaled(1 / local_spacing, difference(positions[q], middle)));
-  window.scale = local_spacing / spacing;
+    window.offsets.push_back(scaled(1 / local_spacing, difference(cloud.positions[q], middle)));
+  window.scale = local_spacing / frame.spacing;
   return window;
 }
 
@@ -90,7 +90,7 @@ double explained(double height) { return std::max(0.0, 1 - height * height / (to
 
 /// The plane of a point of the window and its nearest there.
 std::optional<Plane> plane_at(const Window& window, std::size_t i) {
-  std::array<std::pair<double, std::size_t>, window_size + 1> order;
+  std::array<std::pair<double, std::size_t>, window_size> order;
   for (std::size_t j = 0; j < window.offsets.size(); ++j) {
     const Point d = difference(window.offsets[j], window.offsets[i]);
     order[j] = {dot(d, d), j};
@@ -107,7 +107,7 @@ using Planes = std::array<Plane, 2>;
 /// Of all pairs of hypotheses that pass near the middle the one that explains most.
 std::optional<Planes> best_pair(const Window& window) {
   std::vector<Plane> planes;
-  std::vector<std::array<float, window_size + 1>> scores;
+  std::vector<std::array<float, window_size>> scores;
   for (std::size_t i = 0; i < hypotheses; ++i) {
     const std::optional<Plane> plane = plane_at(window, i);
     if (!plane || std::abs(plane->offset) > near_crease) continue;
@@ -135,23 +135,23 @@ std::optional<Planes> best_pair(const Window& window) {
 /// Two half-planes that end at one line.
 struct Wedge {
   Planes planes;
-  Point foot{};                   // on the line, nearest to where it was expected
+  Point foot{};                   // on the line, nearest to the middle of the window
   Point tangent{};                // of the line
   std::array<Point, 2> inward{};  // in each plane, away from the line
 };
 
 /// The line in which the planes meet; the half-planes are still unknown.
-std::optional<Wedge> meet(const Planes& planes, const Point& expected) {
+std::optional<Wedge> meet(const Planes& planes) {
   const Point along = cross(planes[0].normal, planes[1].normal);
   const double sine = length(along);
   if (sine < smallest_sine) return std::nullopt;
   Wedge wedge{planes, {}, scaled(1 / sine, along), {}};
   const double cosine = dot(planes[0].normal, planes[1].normal);
-  const double first = -height(planes[0], expected);
-  const double second = -height(planes[1], expected);
+  const double first = planes[0].offset;
+  const double second = planes[1].offset;
   const double a = (first - cosine * second) / (sine * sine);
   const double b = (second - cosine * first) / (sine * sine);
-  wedge.foot = sum(expected, sum(scaled(a, planes[0].normal), scaled(b, planes[1].normal)));
+  wedge.foot = sum(scaled(a, planes[0].normal), scaled(b, planes[1].normal));
   return wedge;
 }
 
@@ -182,9 +182,9 @@ double weight_of(const Point& from_foot, const Point& tangent) {
 }
 
 /// Points go to the half-plane that they are nearest to, planes to their points, by turns.
-std::optional<Wedge> refine(const Planes& start, const Window& window, const Point& expected) {
+std::optional<Wedge> refine(const Planes& start, const Window& window) {
   constexpr int rounds = 4;
-  std::optional<Wedge> wedge = meet(start, expected);
+  std::optional<Wedge> wedge = meet(start);
   for (int round = 0; round < rounds && wedge; ++round) {
     choose_sides(*wedge, window);
     std::array<PlaneSums, 2> sums;
@@ -198,7 +198,7 @@ std::optional<Wedge> refine(const Planes& start, const Window& window, const Poi
     const auto first = sums[0].plane();
     const auto second = sums[1].plane();
     if (!first || !second) return std::nullopt;
-    wedge = meet({*first, *second}, expected);
+    wedge = meet({*first, *second});
   }
   if (wedge) choose_sides(*wedge, window);
   return wedge;
@@ -260,14 +260,16 @@ bool is_crease(const Wedge& wedge, const Window& window) {
   return dot(wedge.inward[0], wedge.inward[1]) > obtuse || is_kink(wedge, window);
 }
 
-/// In the frame of the trace.
-Foot foot_of(const Wedge& wedge, const Window& window, const FeatureLabels& labels, const Point& middle) {
+/// In the frame of the trace, of a window about `middle`. Nothing if it is no crease.
+std::optional<Foot> foot_of(const Wedge& wedge, const Window& window, const FeatureLabels& labels,
+                            const Point& middle) {
   Foot foot;
+  foot.quality = share_explained(wedge, window);
+  if (foot.quality == 0 || !is_crease(wedge, window)) return std::nullopt;
   foot.position = sum(middle, scaled(window.scale, wedge.foot));
   foot.tangent = wedge.tangent;
   foot.normals = {wedge.planes[0].normal, wedge.planes[1].normal};
   foot.scale = window.scale;
-  foot.point = window.points[0];
   constexpr double nearby = 1.5;
   for (std::size_t j = 0; j < window.points.size() && !foot.is_backed; ++j) {
     const Kind kind = labels.kind[window.points[j]];
@@ -280,50 +282,33 @@ Foot foot_of(const Wedge& wedge, const Window& window, const FeatureLabels& labe
 }  // namespace
 
 std::optional<Foot> WedgeTracker::find(std::uint32_t point) const {
-  const auto window = window_around(point, cloud_.positions, search_, frame_.spacing);
+  const Point middle = frame_.local(cloud_.positions[point]);
+  const auto window = window_at(middle, cloud_, search_, frame_);
   if (!window) return std::nullopt;
   const auto pair = best_pair(*window);
   if (!pair) return std::nullopt;
-  const auto wedge = refine(*pair, *window, {});
+  const auto wedge = refine(*pair, *window);
   if (!wedge || length(wedge->foot) > largest_shift) return std::nullopt;
-  const double quality = share_explained(*wedge, *window);
-  if (quality == 0 || !is_crease(*wedge, *window)) return std::nullopt;
-  Foot foot = foot_of(*wedge, *window, labels_, frame_.local(cloud_.positions[point]));
-  foot.quality = quality;
-  return foot;
+  return foot_of(*wedge, *window, labels_, middle);
 }
 
 std::optional<Foot> WedgeTracker::follow(const Foot& from, const Point& expected) const {
-  std::uint32_t nearest = from.point;
-  double least = distance(frame_.local(cloud_.positions[nearest]), expected);
-  for (const std::uint32_t q : search_.nearest(from.point, window_size)) {
-    const double d = distance(frame_.local(cloud_.positions[q]), expected);
-    if (d < least) {
-      least = d;
-      nearest = q;
-    }
-  }
-  const auto window = window_around(nearest, cloud_.positions, search_, frame_.spacing);
+  constexpr double steady = 0.97;  // where a line bends the old planes hold on to too few points
+  const auto window = window_at(expected, cloud_, search_, frame_);
   if (!window) return std::nullopt;
-  const Point middle = frame_.local(cloud_.positions[nearest]);
-  const Point start = scaled(1 / window->scale, difference(from.position, middle));
-  const Point goal = scaled(1 / window->scale, difference(expected, middle));
-  Planes planes;
-  for (std::size_t i = 0; i < 2; ++i) planes[i] = {from.normals[i], dot(from.normals[i], start)};
-  const auto accept = [&](std::optional<Wedge> wedge) -> std::optional<Foot> {
-    if (!wedge || distance(wedge->foot, goal) > near_crease) return std::nullopt;
-    const double quality = share_explained(*wedge, *window);
-    if (quality == 0 || !is_crease(*wedge, *window)) return std::nullopt;
-    if (dot(wedge->tangent, from.tangent) < 0) wedge->tangent = scaled(-1, wedge->tangent);
-    Foot foot = foot_of(*wedge, *window, labels_, middle);
-    foot.quality = quality;
+  const auto foot_by = [&](const Planes& planes) -> std::optional<Foot> {
+    const auto wedge = refine(planes, *window);
+    if (!wedge || length(wedge->foot) > near_crease) return std::nullopt;
+    std::optional<Foot> foot = foot_of(*wedge, *window, labels_, expected);
+    if (foot && dot(foot->tangent, from.tangent) < 0) foot->tangent = scaled(-1, foot->tangent);
     return foot;
   };
-  auto foot = accept(refine(planes, *window, goal));
-  // Where the line bends the old planes may hold on to too few points.
-  if (foot && foot->quality > 0.97 * from.quality) return foot;
+  const Point back = scaled(1 / window->scale, difference(from.position, expected));
+  const auto old_plane = [&](const Point& normal) { return Plane{normal, dot(normal, back)}; };
+  std::optional<Foot> foot = foot_by({old_plane(from.normals[0]), old_plane(from.normals[1])});
+  if (foot && foot->quality > steady * from.quality) return foot;
   const auto pair = best_pair(*window);
-  const auto fresh = pair ? accept(refine(*pair, *window, goal)) : std::nullopt;
+  const std::optional<Foot> fresh = pair ? foot_by(*pair) : std::nullopt;
   return fresh && (!foot || fresh->quality > foot->quality) ? fresh : foot;
 }
 
