@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The main job on a real model: fandisk, from Debian's package libcgal-demo.
+# The main job on real models, a machine part and a scan of a building, from Debian's package libcgal-demo.
 set -euo pipefail
 
 keenline=${1:?usage: scripts/demo.sh KEENLINE FOLDER}
@@ -34,9 +34,13 @@ fi
 for model in meshes/fandisk.off points_3/building.ply; do
   name=$(basename "${model%.*}")
   "$keenline" detect "$models/data/$model" -o "$folder/$name-features.ply"
+  "$keenline" lines "$folder/$name-features.ply" -o "$folder/$name.dxf" -o "$folder/$name.json"
+  "$keenline" picture "$folder/$name-features.ply" --lines "$folder/$name.json" -o "$folder/$name.png" --size 1200,900
   echo
 done
-echo "The points with their labels (attributes feature, kind, score, clusters) lie in"
-echo "  $folder/fandisk-features.ply and $folder/building-features.ply"
-echo "Open them in CloudCompare or MeshLab and colour by 'kind', or continue with"
-echo "  $keenline detect YOUR-SCAN.ply -o features.csv"
+echo "In $folder lie, of both models (fandisk, building):"
+echo "  NAME-features.ply   the points with their labels: colour them by 'kind' in CloudCompare or MeshLab"
+echo "  NAME.dxf            the sharp edges as a drawing for CAD (NAME.json: the same for programs)"
+echo "  NAME.png            a picture of both"
+echo "Continue with"
+echo "  $keenline lines YOUR-SCAN.las -o drawing.dxf -o drawing.gpkg"
