@@ -41,6 +41,7 @@ std::vector<Foot> find_feet(const Tracker& tracker, const std::vector<std::uint3
 
 double median_quality(const std::vector<Foot>& feet) {
   std::vector<double> qualities;
+  qualities.reserve(feet.size());
   for (const Foot& foot : feet) qualities.push_back(foot.quality);
   if (qualities.empty()) return 0;
   const auto middle = qualities.begin() + static_cast<std::ptrdiff_t>(qualities.size() / 2);
