@@ -71,6 +71,7 @@ bool agree(const std::vector<Path>& paths, const std::vector<PathEnd>& ends) {
   constexpr double slack = 1.5;  // the common point is not quite where two of them meet
   if (ends.size() == 2) return true;
   std::vector<const Foot*> feet;
+  feet.reserve(ends.size());
   for (const PathEnd& end : ends) feet.push_back(&foot_at(paths, end));
   const Point middle = common_point(feet).position;
   return std::all_of(ends.begin(), ends.end(), [&](const PathEnd& end) {
@@ -142,6 +143,7 @@ std::vector<std::vector<PathEnd>> gather_ends(const std::vector<Path>& paths) {
   for (std::size_t p = 0; p < paths.size(); ++p)
     if (!paths[p].closed) ends.insert(ends.end(), {{p, false}, {p, true}});
   std::vector<std::vector<PathEnd>> groups;
+  groups.reserve(ends.size());
   for (const PathEnd& end : ends) groups.push_back({end});
   std::vector<std::size_t> group_of(ends.size());
   std::iota(group_of.begin(), group_of.end(), std::size_t{0});

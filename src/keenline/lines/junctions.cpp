@@ -130,6 +130,7 @@ class CornerFinder {
     FootGrid places;
     for (std::vector<PathEnd>& ends : gather_ends(paths_)) {
       std::vector<const Foot*> feet;
+      feet.reserve(ends.size() + 1);
       for (const PathEnd& end : ends) feet.push_back(&foot_at(paths_, end));
       if (ends.size() == 1) {
         const Foot* const ahead = line_ahead(ends[0]);
@@ -227,6 +228,7 @@ class CornerFinder {
       else if (d < known->first) *known = {d, passage};
     });
     std::vector<Passage> passages;
+    passages.reserve(nearest.size());
     for (const auto& [d, passage] : nearest) passages.push_back(passage);
     return passages;
   }

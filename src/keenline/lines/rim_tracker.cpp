@@ -20,10 +20,10 @@ constexpr double largest_shift = 1;  // from where the rim was expected
 constexpr double largest_gap = 2.5;  // from a place on the rim to a border point
 constexpr double roundest = 0.2;     // squared width per squared length of what is still a line
 
-std::vector<std::uint32_t> border_points(const FeatureLabels& labels) {
+std::vector<std::uint32_t> border_points(const PointCloud& cloud, const FeatureLabels& labels) {
   std::vector<std::uint32_t> points;
   for (std::uint32_t i = 0; i < labels.size(); ++i)
-    if (labels.kind[i] == Kind::Border) points.push_back(i);
+    if (labels.kind[i] == Kind::Border && is_finite(cloud.positions[i])) points.push_back(i);
   return points;
 }
 
@@ -78,7 +78,7 @@ RimTracker::RimTracker(const PointCloud& cloud, const NeighborSearch& search, co
     : cloud_(cloud),
       search_(search),
       frame_(frame),
-      points_(border_points(labels)),
+      points_(border_points(cloud, labels)),
       positions_(positions_of(points_, cloud)),
       rim_search_(positions_, progress) {}
 

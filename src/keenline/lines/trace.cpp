@@ -41,6 +41,7 @@ std::vector<Foot> find_feet(const Tracker& tracker, const std::vector<std::uint3
 
 double median_quality(const std::vector<Foot>& feet) {
   std::vector<double> qualities;
+  qualities.reserve(feet.size());
   for (const Foot& foot : feet) qualities.push_back(foot.quality);
   if (qualities.empty()) return 0;
   const auto middle = qualities.begin() + static_cast<std::ptrdiff_t>(qualities.size() / 2);
@@ -79,10 +80,13 @@ std::vector<std::uint32_t> points_beside_bends(const std::vector<Path>& paths, c
   return points;
 }
 
-std::vector<std::uint32_t> points_of(std::initializer_list<Kind> kinds, const FeatureLabels& labels) {
+/// Points that are not finite are no candidates, whatever was said of them.
+std::vector<std::uint32_t> points_of(std::initializer_list<Kind> kinds, const PointCloud& cloud,
+                                     const FeatureLabels& labels) {
   std::vector<std::uint32_t> points;
   for (std::uint32_t i = 0; i < labels.size(); ++i)
-    if (std::find(kinds.begin(), kinds.end(), labels.kind[i]) != kinds.end()) points.push_back(i);
+    if (is_finite(cloud.positions[i]) && std::find(kinds.begin(), kinds.end(), labels.kind[i]) != kinds.end())
+      points.push_back(i);
   return points;
 }
 
@@ -189,9 +193,9 @@ FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search, 
     throw InvalidArgument(fmt::format("{} labels for {} points", labels.size(), cloud.size()));
   if (!(options.min_length >= 0))
     throw InvalidArgument(fmt::format("min_length: found {}, expected 0 or more", options.min_length));
-  const std::vector<std::uint32_t> creases = points_of({Kind::Edge, Kind::Corner}, labels);
-  const std::vector<std::uint32_t> borders = points_of({Kind::Border}, labels);
-  const std::vector<std::uint32_t> peaks = points_of({Kind::Peak}, labels);
+  const std::vector<std::uint32_t> creases = points_of({Kind::Edge, Kind::Corner}, cloud, labels);
+  const std::vector<std::uint32_t> borders = points_of({Kind::Border}, cloud, labels);
+  const std::vector<std::uint32_t> peaks = points_of({Kind::Peak}, cloud, labels);
   if (!(spacing > 0) || (creases.empty() && borders.empty() && peaks.empty())) return {};
   const std::uint32_t first = !creases.empty() ? creases[0] : !borders.empty() ? borders[0] : peaks[0];
   const TraceFrame frame{cloud.positions[first], spacing};
