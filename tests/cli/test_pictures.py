@@ -191,8 +191,9 @@ class Figures(FolderTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         names = sorted(os.listdir(self.path("figures")))
         self.assertEqual(names, ["default.png", "figure2-cube.png", "figure2-sphere.png", "figure4-fandisk.png", "figure4-icosahedron.png",
-                                 "figure5-bounding-box.png", "figure5-spacing.png", "figure6.png"])
-        shown = (script.parent.parent / "docs" / "methods" / "gauss.md").read_text()
+                                 "figure5-bounding-box.png", "figure5-spacing.png", "figure6.png",
+                                 "gumhold-kinds.png", "gumhold-score.png", "pauly-kinds.png", "pauly-score.png"])
+        shown = "".join(page.read_text() for page in (script.parent.parent / "docs" / "methods").glob("*.md"))
         for name in names:
             self.assertIn(name, shown)
 
