@@ -2,7 +2,7 @@
 # The figures of Weber, Hahmann, Hagen, "Methods for Feature Detection in Point Clouds", made by the program alone, and
 # what the method does by itself.
 # docs/methods/gauss.md shows them and says what differs from the paper. At the end what other methods see before they
-# decide, and what they decide.
+# decide, and what they decide: on the pages of those.
 set -euo pipefail
 
 keenline=${1:?usage: scripts/figures.sh KEENLINE FOLDER}
@@ -105,4 +105,19 @@ for method in demarsin tensor_voting; do
   sheet "$name-score" --color score --columns 3 --size 370,270
   shown=("${again[@]}")
   sheet "$name" --columns 3 --size 370,270
+done
+
+# The stages of the methods pauly and gumhold: what every point says, and what becomes of it.
+# method NAME CLOUD METHOD [detect options]: its labels by another method
+method() { "$keenline" detect "$work/$2.ply" -o "$work/$1.ply" --method "$3" --quiet "${@:4}"; }
+for name in pauly gumhold; do
+  method "$name" default-fandisk-random "$name"
+  method "$name-plain" default-fandisk-random "$name" --plain
+  method "$name-noise" default-fandisk-noise "$name"
+  add "$name" "score"
+  sheet "$name-score" --color score --size 555,400
+  add "$name" "edges and corners"
+  add "$name-plain" "with --plain"
+  add "$name-noise" "noise 10 % of the spacing"
+  sheet "$name-kinds" --columns 3 --size 370,300
 done

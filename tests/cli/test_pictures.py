@@ -192,6 +192,7 @@ class Figures(FolderTest):
         names = sorted(os.listdir(self.path("figures")))
         self.assertEqual(names, ["default.png", "demarsin-score.png", "demarsin.png", "figure2-cube.png", "figure2-sphere.png", "figure4-fandisk.png", "figure4-icosahedron.png",
                                  "figure5-bounding-box.png", "figure5-spacing.png", "figure6.png",
+                                 "gumhold-kinds.png", "gumhold-score.png", "pauly-kinds.png", "pauly-score.png",
                                  "tensor-voting-score.png", "tensor-voting.png"])
         pages = (script.parent.parent / "docs" / "methods").glob("*.md")
         shown = "".join(page.read_text() for page in pages)
