@@ -28,6 +28,7 @@ bool close_between_ends(LineNet& net, double reach, double ratio) {
   if (ends.size() < 2) return false;
   constexpr int others_looked_at = 5;
   std::vector<Point> positions;
+  positions.reserve(ends.size());
   for (const std::uint32_t end : ends) positions.push_back(net.position_of(end));
   const NeighborSearch search(positions);
   std::vector<Pair> pairs;

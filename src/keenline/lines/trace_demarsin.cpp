@@ -73,6 +73,7 @@ std::vector<Edge> extended_graph(const Candidates& candidates, const CandidateCl
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<Edge> edges;
+  edges.reserve(pairs.size());
   for (const auto& [a, b] : pairs)
     edges.push_back({distance(clusters.centroids[a], clusters.centroids[b]), a, b});
   std::sort(edges.begin(), edges.end());
