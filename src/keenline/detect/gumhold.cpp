@@ -15,11 +15,11 @@
 #include "keenline/cloud.h"
 #include "keenline/detect/pattern_penalties.h"
 #include "keenline/errors.h"
-#include "keenline/lines/spanning_pattern.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/spanning_pattern.h"
 
 namespace keenline {
 namespace {

@@ -50,7 +50,7 @@ double curvature_penalty(const PointPenalties& point, const PenaltyRule& rule) {
 }
 
 double edge_crease_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
-                      const PenaltyRule& rule) {
+                           const PenaltyRule& rule) {
   const auto line = [&](const PointPenalties& point) {
     return std::min(direction_penalty(point.crease, point.direction, way, rule), point.corner);
   };
@@ -64,7 +64,7 @@ double crease_penalty(const PointPenalties& point, const PenaltyRule& rule) {
 }
 
 double edge_border_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
-                      const PenaltyRule& rule) {
+                           const PenaltyRule& rule) {
   constexpr double gap_share = 0.5;
   const auto gap = [](const PointPenalties& point) { return 1 - point.gap_deg / 360; };
   const auto line = [&](const PointPenalties& point) {

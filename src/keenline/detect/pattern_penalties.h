@@ -45,9 +45,9 @@ struct PenaltyRule {
 
 /// Of the way from p to q along a unit vector, 0 to 2.
 [[nodiscard]] double edge_crease_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
-                                    const PenaltyRule& rule);
+                                         const PenaltyRule& rule);
 [[nodiscard]] double edge_border_penalty(const PointPenalties& p, const PointPenalties& q, const Point& way,
-                                    const PenaltyRule& rule);
+                                         const PenaltyRule& rule);
 
 /// What remains of it for an edge in the best direction: 1 on no crease, 0 at most a sharp one.
 [[nodiscard]] double crease_penalty(const PointPenalties& point, const PenaltyRule& rule);

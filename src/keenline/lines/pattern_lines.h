@@ -8,7 +8,7 @@
 #include "keenline/feature_graph.h"
 #include "keenline/labels.h"
 #include "keenline/lines/foot.h"
-#include "keenline/lines/spanning_pattern.h"
+#include "keenline/neighborhood/spanning_pattern.h"
 #include "keenline/progress.h"
 
 namespace keenline {

@@ -1,4 +1,4 @@
-#include "keenline/lines/spanning_pattern.h"
+#include "keenline/neighborhood/spanning_pattern.h"
 
 #include <algorithm>
 #include <array>
