@@ -1,8 +1,8 @@
 // What finding sharp features costs, against finding the neighbours alone: on each cloud and in one run,
 // single-threaded, nanoflann's plain pass over all points, keenline's neighbour stage, and neighbours +
 // method gauss with the labels of all sensitivities; the textbook clustering on a sample of the points;
-// CGAL's Voronoi-covariance edges where CGAL is there; then the same with all threads. Medians of the ratios
-// over the rounds.
+// CGAL's Voronoi-covariance edges where CGAL is there; then the same with all threads. Then every other
+// method. Medians of the ratios over the rounds.
 //
 //     speed_bench [ROUNDS [FILE…]]      FILE: a scan, measured as it is
 
@@ -141,6 +141,33 @@ void report(Subject subject, int rounds_wanted, bool with_rivals) {
   std::fflush(stdout);
 }
 
+/// Every method of the registry with its defaults, neighbours included, on one thread.
+void report_methods(Subject subject, int rounds) {
+  const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+  const PointCloud& cloud = subject.cloud;
+  const double noise = estimate_noise(cloud, NeighborSearch(cloud.positions));
+  for (const Method& method : methods()) {
+    std::vector<double> seconds;
+    std::vector<double> ratios;
+    FeatureLabels labels;
+    for (int i = 0; i < rounds; ++i) {
+      OptionValues values = resolve_options(method, {});
+      method.adapt(values, noise, cloud.size());
+      const double nanoflann_s = bench::processor_s([&] { (void)bench::nanoflann_pass(cloud, neighbors); });
+      seconds.push_back(bench::processor_s([&] {
+        const NeighborSearch search(cloud.positions);
+        labels = method.detect(cloud, search, values, no_progress());
+      }));
+      ratios.push_back(seconds.back() / nanoflann_s);
+    }
+    (void)add_labels(subject.cloud, labels);
+    fmt::print("{:<24} {:>9} {:<14} {:>9.0f} {:>8.2f} {:>6.3f}\n", subject.name, cloud.size(), method.name,
+               bench::median(seconds) * 1e9 / static_cast<double>(cloud.size()), bench::median(ratios),
+               f1(compare(subject.cloud, subject.cloud)));
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -161,4 +188,8 @@ int main(int argc, char** argv) {
     const std::string path = argv[i];
     report({path.substr(path.rfind('/') + 1), read_cloud(path).cloud, false}, rounds, true);
   }
+  fmt::print("\n{:<24} {:>9} {:<14} {:>9} {:>8} {:>6}\n{:<24} {:>9} {:<14} {:>9} {:>8} {:>6}\n", "cloud",
+             "points", "method", "with", "/ nano-", "F1", "", "", "", "neighbors", "flann", "");
+  report_methods(synthetic("fandisk", 100'000, 0), rounds);
+  report_methods(synthetic("fandisk", 100'000, 0.1), rounds);
 }
