@@ -155,7 +155,8 @@ class Interruption(FolderTest):
                     # Before the handlers are in place (the first milliseconds) the signal ends the program as always.
                     self.assertIn(process.returncode, (code, -number), errors)
                     self.assertEqual(self.names(), ["large.ply"])
-                    self.assertLess(elapsed, 1 if "asan" not in os.environ.get("KEENLINE_BUILD_DIR", "") else 10)
+                    # A second on an idle machine.
+                    self.assertLess(elapsed, 5 if "asan" not in os.environ.get("KEENLINE_BUILD_DIR", "") else 30)
 
     def test_progress_is_drawn_on_a_terminal_only(self):
         source = self.cube(100000, "large.ply", "--noise", "0.1h")

@@ -55,6 +55,17 @@ class Picture(FolderTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         return out
 
+    def test_lines_are_drawn_over_their_cloud(self):
+        cloud, lines = self.cube(), self.path("lines.json")
+        self.assertEqual(run("synth", "cube", "-o", self.path("same.ply"), "--points", 2000, "--lines", lines).returncode, 0)
+        result = run("picture", cloud, "--lines", lines, "-o", self.path("out.png"), "--size", "300,240")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        _, _, rows = read_png(self.path("out.png"))
+        self.assertGreater(count(rows, EDGE), 100)
+        self.assertGreater(count(rows, CORNER), 10)
+        self.expect_refusal(run("picture", cloud, "--lines", lines, "--lines", lines, "-o", self.path("out.png")), 2, "--lines")
+        self.expect_refusal(run("picture", cloud, "--lines", self.path("no.json"), "-o", self.path("out.png")), 1, "no.json")
+
     def test_a_labelled_cloud_shows_its_kinds(self):
         result = run("picture", self.labelled(), "-o", self.path("out.png"), "--size", "200,160")
         self.assertEqual((result.returncode, result.stderr), (0, ""))

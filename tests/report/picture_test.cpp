@@ -9,9 +9,11 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "keenline/errors.h"
+#include "keenline/feature_graph.h"
 #include "keenline/labels.h"
 #include "keenline/report/legend.h"
 #include "keenline/synth/synth.h"
+#include "keenline/synth/true_lines.h"
 
 #include "support/expect_error.h"
 
@@ -61,6 +63,37 @@ std::size_t background_in(const Image& image, int left, int top, int right, int 
 PointCloud with_kinds(PointCloud cloud, const std::vector<std::uint8_t>& kinds) {
   cloud.set_attribute(Column("kind", kinds));
   return cloud;
+}
+
+TEST(Picture, LinesAndCornersStandInFrontOfTheirCloud) {
+  const SynthCloud cube = shape("cube", 3000);
+  const FeatureGraph graph = true_lines(cube);
+  PictureOptions options = view(-60, 25);
+  const Image without = draw_cloud(cube.cloud, options);
+  options.lines = &graph;
+  const Image with = draw_cloud(cube.cloud, options);
+  const auto edge_pixels = [](const Image& image) { return pixels_like(image, color_of(Kind::Edge)); };
+  const auto corner_pixels = [](const Image& image) { return pixels_like(image, color_of(Kind::Corner)); };
+  EXPECT_EQ(edge_pixels(without), 0U);
+  EXPECT_EQ(corner_pixels(without), 0U);
+  EXPECT_GT(edge_pixels(with), 200U);
+  EXPECT_GT(corner_pixels(with), 20U);
+  // Labels of points would be in the way.
+  const PointCloud labelled = with_kinds(cube.cloud, std::vector<std::uint8_t>(cube.cloud.size(), 2));
+  EXPECT_TRUE(equal(draw_cloud(labelled, options), with));
+  options.color = "kind";
+  EXPECT_FALSE(equal(draw_cloud(labelled, options), with));
+}
+
+TEST(Picture, LinesFarLargerThanTheCloudAreDrawnOnlyInPart) {
+  const SynthCloud cube = shape("cube", 500);
+  PictureOptions options = view(-60, 25);
+  for (const double far : {1e3, 1e9, 1e150}) {
+    FeatureGraph graph;
+    graph.polylines.push_back({.vertices = {{-far, 0, 0}, {far, 0, 0}, {0, far, far}}});
+    options.lines = &graph;
+    EXPECT_EQ(draw_cloud(cube.cloud, options).width(), 200) << far;
+  }
 }
 
 TEST(Picture, ASinglePointStandsInTheMiddle) {

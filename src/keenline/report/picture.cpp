@@ -240,6 +240,10 @@ double median_radius(std::span<const Disc> discs) {
 template <typename Place>
 void append_lines(const FeatureGraph& graph, const Place& place, double marker, double lift,
                   std::vector<Splat>& splats) {
+  const auto position = [](const Splat& splat) {
+    return Point{static_cast<double>(splat.x), static_cast<double>(splat.y),
+                 static_cast<double>(splat.depth)};
+  };
   const auto append = [&](const Splat& at, double radius, Color color) {
     Splat& splat = splats.emplace_back(at);
     splat.radius = static_cast<float>(radius);
@@ -247,13 +251,20 @@ void append_lines(const FeatureGraph& graph, const Place& place, double marker, 
     splat.color = color;
     splat.is_marker = true;
   };
+  // A drawing far larger than the cloud must not become more balls than a picture can hold.
+  constexpr double most_balls = 1e6;
+  double total = 0;
+  for (const Polyline& line : graph.polylines)
+    for (std::size_t i = 0; i < segment_count(line); ++i)
+      total += distance(position(place(line.vertices[i])), position(place(segment_end(line, i))));
+  if (!std::isfinite(total)) return;
+  const double step_length = std::max(0.5 * marker, total / most_balls);
   for (const Polyline& line : graph.polylines) {
     const Color color = color_of(line.kind == LineKind::Border ? Kind::Border : Kind::Edge);
     for (std::size_t i = 0; i < segment_count(line); ++i) {
       const Splat from = place(line.vertices[i]);
       const Splat to = place(segment_end(line, i));
-      const double length = std::hypot(to.x - from.x, to.y - from.y, to.depth - from.depth);
-      const int steps = static_cast<int>(std::min(std::ceil(length / (0.5 * marker)), 1e5));
+      const int steps = static_cast<int>(std::ceil(distance(position(from), position(to)) / step_length));
       for (int step = 0; step <= steps; ++step) {
         const float share = steps > 0 ? static_cast<float>(step) / static_cast<float>(steps) : 0.0F;
         Splat at;
