@@ -13,7 +13,7 @@ namespace keenline {
 namespace {
 
 bool is_usable(double number) { return std::abs(number) <= largest_graph_number; }  // false for NaN
-bool is_usable(const Point& p) { return is_usable(p[0]) && is_usable(p[1]) && is_usable(p[2]); }
+bool is_usable(const Point& p) { return is_drawable(p); }
 bool is_usable(const SideNormals& n) { return is_usable(n.left) && is_usable(n.right); }
 
 template <typename T>
@@ -125,6 +125,8 @@ GraphCounts counts_of(const FeatureGraph& graph) {
   }
   return counts;
 }
+
+bool is_drawable(const Point& p) { return is_usable(p[0]) && is_usable(p[1]) && is_usable(p[2]); }
 
 void validate(const FeatureGraph& graph) {
   for (std::size_t i = 0; i < graph.corners.size(); ++i) {

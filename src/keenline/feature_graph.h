@@ -117,6 +117,9 @@ struct GraphCounts {
 /// No number of a valid graph is larger: so no square of a distance overflows.
 inline constexpr double largest_graph_number = 1e150;
 
+/// Whether a valid graph may hold it.
+[[nodiscard]] bool is_drawable(const Point& p);
+
 /// \throw InvalidArgument naming the corner or polyline, from 0, in which a number is not finite or beyond
 /// largest_graph_number, a corner does not exist, vertices are fewer than 2 (closed: 3), a vector is neither
 /// empty nor as long as the vertices, or a fitted curve is none.

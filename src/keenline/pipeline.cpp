@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -150,7 +151,8 @@ FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, con
   else if (job.smooth_lines) graph = smooth_lines(graph);
   if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing);
   if (job.fit_spacings > 0) graph = fit_lines(graph, job.fit_spacings * spacing, progress);
-  measure_sides(graph, cloud, search, spacing, progress);
+  // Snapping has looked at the sides already.
+  if (!job.snap) measure_sides(graph, cloud, search, spacing, progress);
   return graph;
 }
 
@@ -220,7 +222,7 @@ LinesReport run_lines(const LinesJob& job, Progress& progress,
                       const std::function<void(const LinesReport&)>& before_commit) {
   LinesReport report;
   DetectReport& detection = report.detection;
-  const bool may_use_labels = job.method.empty() && job.options.empty();
+  const bool may_use_labels = job.method.empty() && job.options.empty() && job.smoothing == Smoothing::Auto;
   const Method& method = job.method.empty() ? methods().front() : find_method(job.method);
   detection.options = resolve_options(method, job.options);
   (void)find_tracer(job.trace);
@@ -242,7 +244,7 @@ LinesReport run_lines(const LinesJob& job, Progress& progress,
     detection.options.clear();
     detection.labels = std::move(*own);
     detection.spacing = estimate_spacing(cloud, search);
-    detection.notes.push_back("the labels of the input are used; --method detects anew");
+    detection.notes.push_back("the labels of the input are used; --method labels it anew");
   } else {
     report.method = method.name;
     detect_in(cloud, search, method, job.smoothing, detection, progress);
@@ -295,12 +297,14 @@ std::optional<FeatureLabels> labels_of(const PointCloud& cloud) {
       labels.kind.push_back(*kind);
     }
   } else if (const auto features = numbers_in(cloud.attribute("feature"))) {
-    for (const double number : *features) labels.kind.push_back(number != 0 ? Kind::Edge : Kind::Flat);
+    for (const double number : *features)
+      labels.kind.push_back(number != 0 && !std::isnan(number) ? Kind::Edge : Kind::Flat);
   } else {
     return std::nullopt;
   }
   if (const auto scores = numbers_in(cloud.attribute("score"))) {
-    for (const double score : *scores) labels.score.push_back(static_cast<float>(score));
+    for (const double score : *scores)
+      labels.score.push_back(std::isnan(score) ? 0.0F : static_cast<float>(score));
   } else {
     labels.score.assign(labels.size(), 1.0F);
   }

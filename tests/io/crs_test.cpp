@@ -58,8 +58,10 @@ TEST(Crs, OfACloudStandsInItsComments) {
   EXPECT_EQ(crs_of(cloud), "EPSG:25832");
   cloud.comments = {"crs_wkt " + std::string(utm)};
   EXPECT_EQ(crs_of(cloud), "EPSG:25832");
-  cloud.comments = {"crs_epsg twelve"};
-  EXPECT_EQ(crs_of(cloud), "");
+  for (const char* const code : {"twelve", "nan", "-3", "1.5", "1e300", ""}) {
+    cloud.comments = {std::string("crs_epsg ") + code};
+    EXPECT_EQ(crs_of(cloud), "") << code;
+  }
 }
 
 }  // namespace

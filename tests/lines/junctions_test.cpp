@@ -49,6 +49,30 @@ TEST(ConnectPaths, EndsThatFaceEachOtherAreOneLine) {
   EXPECT_NEAR(length_of(graph.polylines[0]), 0.5 * 30, 1e-9);
 }
 
+TEST(ConnectPaths, SeveralStretchesInARowAreOneLine) {
+  for (const bool turned : {false, true}) {
+    std::vector<Path> stretches;
+    for (double from = 0; from < 60; from += 12) {
+      const Point a{from, 0, 0};
+      const Point b{from + 9, 0, 0};
+      stretches.push_back(turned ? straight_path(b, a, y, z) : straight_path(a, b, y, z));
+    }
+    const FeatureGraph graph = connect_paths(stretches, frame, 6);
+    validate(graph);
+    ASSERT_EQ(graph.polylines.size(), 1U);
+    EXPECT_NEAR(length_of(graph.polylines[0]), 0.5 * 57, 1e-9);
+  }
+}
+
+TEST(ConnectPaths, AnyLengthIsNoNoiseWhereNoneIsAskedFor) {
+  for (const double length : {0.0, 1.0, 2.0, 9.0}) {
+    const FeatureGraph graph = connect_paths(
+        {straight_path({0, 0, 0}, {length, 0, 0}, y, z), straight_path({1, 1, 1}, {1 + length, 1, 1}, y, z)},
+        frame, 0);
+    EXPECT_NO_THROW(validate(graph)) << length;
+  }
+}
+
 TEST(ConnectPaths, ALineThatRunsIntoAnotherCutsIt) {
   const FeatureGraph graph = connect_paths(
       {straight_path({-15, 0, 0}, {15, 0, 0}, y, z), straight_path({0.3, 20, 0}, {0.3, 2, 0}, x, z)}, frame,

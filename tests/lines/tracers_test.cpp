@@ -47,6 +47,30 @@ TEST(Tracers, EveryOneDrawsACube) {
   }
 }
 
+TEST(Tracers, EveryGraphIsValidWhateverWasLabelled) {
+  LabelledShape cone = labelled_shape("cone", 2000);
+  std::vector<Point>& positions = cone.synth.cloud.positions;
+  // Peaks and edges that no graph may hold, a heap of copies, and labels without scores.
+  for (const Kind kind : {Kind::Peak, Kind::Edge, Kind::Border, Kind::Corner}) {
+    for (const double far : {1e20, 1e152, 1e300}) {
+      positions.push_back({far, -far, 0.5 * far});
+      cone.labels.kind.push_back(kind);
+    }
+    for (int copy = 0; copy < 60; ++copy) {
+      positions.push_back(positions[static_cast<std::size_t>(kind)]);
+      cone.labels.kind.push_back(kind);
+    }
+  }
+  cone.labels.score.clear();
+  const NeighborSearch search(positions);
+  for (const LineTracer& tracer : line_tracers()) {
+    for (const double spacing : {cone.spacing, 1e-310, 1e300}) {
+      EXPECT_NO_THROW(validate(tracer.trace(cone.synth.cloud, search, cone.labels, spacing, no_progress())))
+          << tracer.name << ", " << spacing;
+    }
+  }
+}
+
 TEST(Tracers, OfNoPointsDrawNothing) {
   const PointCloud cloud;
   const NeighborSearch search(cloud.positions);

@@ -96,7 +96,7 @@ FeatureLabels detect_demarsin(const PointCloud& cloud, const NeighborSearch& sea
   require_usable(options);
   constexpr std::uint64_t bytes_per_point = sizeof(Point) + sizeof(float) + 3 * sizeof(std::uint32_t);
   require_memory(cloud.size() * bytes_per_point, "segmentation by normals");
-  progress.begin("demarsin", 2 * cloud.size());
+  progress.begin("demarsin", 3 * cloud.size());
   Segments segments = segment_by_normals(
       cloud.positions, search,
       {options.normal_neighbors, options.region_neighbors, options.segment_angle_deg}, progress);

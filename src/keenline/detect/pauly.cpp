@@ -208,6 +208,7 @@ class Detector {
     while (!front.empty()) {
       const std::uint32_t i = front.back();
       front.pop_back();
+      if (i % 256 == 0) progress_.check();
       for (const std::uint32_t j : search_.nearest(i, graph_neighbors)) {
         if (!may_grow[j] || reached[j]) continue;
         reached[j] = true;

@@ -41,8 +41,9 @@ struct PaulyOptions {
 /// Keiser, Gross 2003, "Multi-scale Feature Extraction on Point-Sampled Surfaces", sections 2 and 3; the
 /// lines of its later sections are trace_pauly(). Departures: see docs/methods/pauly.md. Points with fewer
 /// than smallest_scale neighbours are undecided. Threads: any number, same bits. Cost: O(n (largest_scale +
-/// scales)). Memory: 4 bytes per point and scale, 20 per point beside. \pre neighborhoods.size() ==
-/// cloud.size() \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
+/// scales)). Memory: 4 bytes per point and scale, 20 per point beside.
+/// \pre the search is that of cloud.positions
+/// \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
 [[nodiscard]] FeatureLabels detect_pauly(const PointCloud& cloud, const NeighborSearch& search,
                                          const PaulyOptions& options = {},
                                          Progress& progress = no_progress());

@@ -29,7 +29,7 @@ class Segmentation {
 
   Segments run() {
     find_normals();
-    neighborhoods_ = search_.all(options_.region_neighbors);
+    neighborhoods_ = search_.all(options_.region_neighbors, progress_);
     measure_bends();
     result_.angle_deg = options_.angle_deg.value_or(usual_angle_deg());
     grow_regions();
@@ -97,6 +97,7 @@ class Segmentation {
       segment[seed] = count;
       region.assign(1, seed);
       for (std::size_t next = 0; next < region.size(); ++next) {
+        if (next % 4096 == 0) progress_.check();
         const Point& normal = result_.normals[region[next]];
         for (const std::uint32_t neighbor : neighborhoods_.of(region[next])) {
           // The cosine with a missing normal is 0.

@@ -20,7 +20,8 @@ unsigned number_at(std::string_view bytes, std::size_t at) {
 
 std::optional<int> epsg_code(std::string_view text) {
   double code = 0;
-  if (parse_number(text, code) != Parsed::Ok || code < 1 || code > 998999 || code != static_cast<int>(code))
+  if (parse_number(text, code) != Parsed::Ok || !(code >= 1 && code <= 998999) ||
+      code != static_cast<int>(code))
     return std::nullopt;
   return static_cast<int>(code);
 }

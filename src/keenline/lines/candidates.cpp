@@ -22,10 +22,6 @@ constexpr int neighbors_near = 64;  // pi 4.5²
 
 bool is_candidate(Kind kind) { return kind == Kind::Edge || kind == Kind::Corner; }
 
-bool is_drawable(const Point& p) {
-  return std::all_of(p.begin(), p.end(), [](double c) { return std::abs(c) <= largest_graph_number; });
-}
-
 /// Towards the mean of what is near, across the line along which that lies; the less it is a line, the less.
 Point drawn_together(const std::vector<Point>& positions, std::size_t own,
                      std::span<const std::uint32_t> near, double radius) {

@@ -217,6 +217,7 @@ class Refinement {
   /// Weighs the points and narrows the tolerance to what their residuals justify; how many points count.
   std::size_t weigh(std::size_t s, Fit& fit) {
     residuals_.clear();
+    squares_ = 0;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
       const std::optional<double> r = residual(s, fit, i);
       weights_[i] = 0;
@@ -224,6 +225,7 @@ class Refinement {
       const double part = *r / fit.tolerance;
       weights_[i] = (1 - part * part) * (1 - part * part);
       residuals_.push_back(std::abs(*r));
+      squares_ += *r * *r;  // here, because a median leaves the order of the residuals open
     }
     const std::size_t count = residuals_.size();
     if (count > 0) {
@@ -320,10 +322,8 @@ class Refinement {
   Side side(std::size_t s) {
     Side result{.surface = fits_[s].surface, .inward = fits_[s].surface.x};
     result.support = weigh(s, fits_[s]);
-    double squares = 0;
-    for (const double r : residuals_) squares += r * r;
     if (result.support > 0)
-      result.residual = patch_.spacing * std::sqrt(squares / static_cast<double>(result.support));
+      result.residual = patch_.spacing * std::sqrt(squares_ / static_cast<double>(result.support));
     return result;
   }
 
@@ -332,6 +332,7 @@ class Refinement {
   std::vector<Fit> fits_;
   std::vector<double> weights_;  // of the points of the patch
   std::vector<double> residuals_;
+  double squares_ = 0;  // sum of those of the residuals
 };
 
 bool is_credible(const std::vector<Side>& sides, std::size_t wanted, double spacing) {

@@ -64,7 +64,10 @@ std::optional<Candidate> winding(const Polyline& line, std::size_t controls) {
 /// The spline of the fewest control points: tried in growing steps, then one by one from the last that
 /// failed.
 std::optional<Candidate> fewest_controls(const Polyline& line, double tolerance, const Progress& progress) {
-  const std::size_t most = line.vertices.size() + (line.closed ? 1 : 0);
+  // Round a closed line every control depends on all others: their number cubed is what a fit costs.
+  constexpr std::size_t most_closed = 400;
+  const std::size_t most =
+      line.closed ? std::min(line.vertices.size() + 1, most_closed) : line.vertices.size();
   const auto within = [&](std::size_t controls) -> std::optional<Candidate> {
     progress.check();
     std::optional<Candidate> candidate = winding(line, controls);

@@ -15,7 +15,11 @@ struct TraceFrame {
   Point origin{};
   double spacing = 1;
 
-  [[nodiscard]] Point local(const Point& p) const { return scaled(1 / spacing, difference(p, origin)); }
+  [[nodiscard]] Point local(const Point& p) const {
+    const Point offset = difference(p, origin);
+    // Not by the reciprocal: that of the smallest spacings is infinite.
+    return {offset[0] / spacing, offset[1] / spacing, offset[2] / spacing};
+  }
   [[nodiscard]] Point global(const Point& p) const { return sum(origin, scaled(spacing, p)); }
 };
 

@@ -22,8 +22,9 @@ FootGrid::Cell FootGrid::cell_of(const Point& position) {
   constexpr double farthest = 1e15;  // where cells still differ by 1
   Cell cell{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cell[axis] =
-        static_cast<std::int64_t>(std::floor(std::clamp(position[axis] / side, -farthest, farthest)));
+    const double place = position[axis] / side;
+    if (!std::isnan(place))
+      cell[axis] = static_cast<std::int64_t>(std::floor(std::clamp(place, -farthest, farthest)));
   }
   return cell;
 }

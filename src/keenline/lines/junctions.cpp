@@ -83,8 +83,9 @@ void join(std::vector<Path>& paths, const PathEnd& a, const PathEnd& b) {
   second.feet.clear();
 }
 
+/// \pre two ends, of paths that have feet
 bool is_gap(const std::vector<Path>& paths, const std::vector<PathEnd>& ends) {
-  if (ends.size() != 2 || paths[ends[0].path].kind != paths[ends[1].path].kind) return false;
+  if (paths[ends[0].path].kind != paths[ends[1].path].kind) return false;
   return dot(ray_from(paths, ends[0]).direction, ray_from(paths, ends[1]).direction) < -smooth_turn;
 }
 
@@ -94,7 +95,9 @@ void close_gaps(std::vector<Path>& paths) {
     changed = false;
     std::vector<bool> touched(paths.size(), false);
     for (const std::vector<PathEnd>& ends : gather_ends(paths)) {
-      if (!is_gap(paths, ends) || touched[ends[0].path] || touched[ends[1].path]) continue;
+      // Those that a join of this round has moved or emptied have no end to look at.
+      if (ends.size() != 2 || touched[ends[0].path] || touched[ends[1].path]) continue;
+      if (!is_gap(paths, ends)) continue;
       touched[ends[0].path] = touched[ends[1].path] = true;
       join(paths, ends[0], ends[1]);
       changed = true;
@@ -313,7 +316,7 @@ void cut(Path path, Stops stops, std::vector<Piece>& pieces) {
   }
   for (; next < path.feet.size(); ++next) piece.path.feet.push_back(path.feet[next]);
   piece.end = stops.end;
-  pieces.push_back(std::move(piece));
+  if (!piece.path.feet.empty() || stops.end) pieces.push_back(std::move(piece));
 }
 
 /// Ends pieces where their corners begin. What leads to no corner ends where the detector saw it last.
@@ -338,6 +341,8 @@ std::vector<Piece> pieces_of(const std::vector<Path>& paths, const std::vector<C
 /// Too short for a line that leads nowhere.
 bool is_noise(const Piece& piece, double min_length) {
   if (piece.path.closed) return piece.path.feet.size() < fewest_feet;
+  const std::size_t corners = (piece.start ? 1U : 0U) + (piece.end ? 1U : 0U);
+  if (piece.path.feet.size() + corners < 2) return true;
   const bool leads_on = piece.start && piece.end && piece.start != piece.end;
   return !leads_on && (piece.path.feet.empty() || relative_length(piece.path) < min_length);
 }
@@ -345,7 +350,8 @@ bool is_noise(const Piece& piece, double min_length) {
 Polyline polyline_of(const Piece& piece, const std::vector<Corner>& corners, const TraceFrame& frame) {
   Polyline line;
   line.kind = piece.path.kind;
-  line.closed = piece.path.closed;
+  line.closed =
+      piece.path.closed || (piece.start && piece.start == piece.end && piece.path.feet.size() >= fewest_feet);
   const auto add_corner = [&](std::optional<std::size_t> corner) {
     if (corner) line.vertices.push_back(frame.global(corners[*corner].at.position));
   };

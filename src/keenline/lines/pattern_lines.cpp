@@ -29,10 +29,6 @@ bool may_be_on(LineKind kind, Kind label) {
   return kind == LineKind::Border ? label == Kind::Border : label == Kind::Edge || label == Kind::Corner;
 }
 
-bool is_drawable(const Point& p) {
-  return std::all_of(p.begin(), p.end(), [](double c) { return std::abs(c) <= largest_graph_number; });
-}
-
 std::vector<bool> members_of(const PointCloud& cloud, const NeighborSearch& search,
                              const FeatureLabels& labels, LineKind kind, const Progress& progress) {
   std::vector<bool> is_member(cloud.size());

@@ -9,6 +9,7 @@
 
 #include "keenline/errors.h"
 #include "keenline/lines/arc_length.h"
+#include "keenline/memory.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -61,6 +62,8 @@ std::vector<double> places_along(const Polyline& line, const ArcLength& arc, dou
     const double pieces = std::max(fewest, std::round(way / step));
     if (static_cast<double>(places.size()) + pieces > static_cast<double>(max_points))
       throw OutOfMemory(fmt::format("a step of {} makes too many vertices", step));
+    constexpr double bytes_per_vertex = 130;
+    require_memory(static_cast<std::uint64_t>(bytes_per_vertex * pieces), "resampling lines");
     for (double k = 0; k < pieces; ++k) places.push_back(fixed[f] + way * (k / pieces));
   }
   if (!line.closed) places.push_back(fixed.back());

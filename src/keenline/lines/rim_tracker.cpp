@@ -23,7 +23,7 @@ constexpr double roundest = 0.2;     // squared width per squared length of what
 std::vector<std::uint32_t> border_points(const PointCloud& cloud, const FeatureLabels& labels) {
   std::vector<std::uint32_t> points;
   for (std::uint32_t i = 0; i < labels.size(); ++i)
-    if (labels.kind[i] == Kind::Border && is_finite(cloud.positions[i])) points.push_back(i);
+    if (labels.kind[i] == Kind::Border && is_drawable(cloud.positions[i])) points.push_back(i);
   return points;
 }
 
@@ -118,7 +118,7 @@ std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& exp
   mean = scaled(1 / weights, mean);
   add_square(scatter, mean, -weights);
   const kernels::Eigen3 eigen = kernels::eigen_decomposition(scatter);
-  if (eigen.values[1] > roundest * eigen.values[0]) return std::nullopt;
+  if (!(eigen.values[0] > 0) || eigen.values[1] > roundest * eigen.values[0]) return std::nullopt;
   Foot foot;
   foot.tangent = eigen.vectors[0];
   const Point shift = difference(mean, scaled(dot(mean, foot.tangent), foot.tangent));

@@ -80,12 +80,13 @@ std::vector<std::uint32_t> points_beside_bends(const std::vector<Path>& paths, c
   return points;
 }
 
-/// Points that are not finite are no candidates, whatever was said of them.
+/// Points that no graph may hold are no candidates, whatever was said of them.
 std::vector<std::uint32_t> points_of(std::initializer_list<Kind> kinds, const PointCloud& cloud,
                                      const FeatureLabels& labels) {
   std::vector<std::uint32_t> points;
   for (std::uint32_t i = 0; i < labels.size(); ++i)
-    if (is_finite(cloud.positions[i]) && std::find(kinds.begin(), kinds.end(), labels.kind[i]) != kinds.end())
+    if (is_drawable(cloud.positions[i]) &&
+        std::find(kinds.begin(), kinds.end(), labels.kind[i]) != kinds.end())
       points.push_back(i);
   return points;
 }
@@ -99,7 +100,8 @@ std::vector<Path> trace_creases(const PointCloud& cloud, const NeighborSearch& s
   LineWalker walker(LineKind::Crease);
   walker.walk(tracker, better_than(0.75 * usual, seeds), progress);
   const auto beside = points_beside_bends(walker.paths(), cloud, search, frame);
-  walker.walk(tracker, better_than(0.9 * usual, find_feet(tracker, beside, no_progress())), no_progress());
+  progress.begin("tracing beside bends", 2 * beside.size());
+  walker.walk(tracker, better_than(0.9 * usual, find_feet(tracker, beside, progress)), progress);
   return walker.paths();
 }
 
@@ -144,7 +146,6 @@ void count_support(FeatureGraph& graph, const PointCloud& cloud, const std::vect
   }
   for (const std::uint32_t candidate : candidates) {
     const Point& p = cloud.positions[candidate];
-    if (!is_finite(p)) continue;
     double least = nearby * frame.spacing;
     Polyline* nearest = nullptr;
     vertices.near(frame.local(p), 2 * nearby, [&](const FootGrid::Entry& entry) {
@@ -171,8 +172,10 @@ void add_peaks(FeatureGraph& graph, const PointCloud& cloud, const FeatureLabels
   };
   for (const Polyline& line : graph.polylines)
     for (const Point& vertex : line.vertices) take(vertex);
-  std::stable_sort(peaks.begin(), peaks.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return labels.score[a] > labels.score[b]; });
+  if (labels.score.size() == labels.size()) {
+    std::stable_sort(peaks.begin(), peaks.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return labels.score[a] > labels.score[b]; });
+  }
   for (const std::uint32_t peak : peaks) {
     const Point position = frame.local(cloud.positions[peak]);
     bool is_free = true;
