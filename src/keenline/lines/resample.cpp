@@ -64,7 +64,9 @@ std::vector<double> places_along(const Polyline& line, const ArcLength& arc, dou
       throw OutOfMemory(fmt::format("a step of {} makes too many vertices", step));
     constexpr double bytes_per_vertex = 130;
     require_memory(static_cast<std::uint64_t>(bytes_per_vertex * pieces), "resampling lines");
-    for (double k = 0; k < pieces; ++k) places.push_back(fixed[f] + way * (k / pieces));
+    const auto count = static_cast<std::size_t>(pieces);
+    for (std::size_t k = 0; k < count; ++k)
+      places.push_back(fixed[f] + way * (static_cast<double>(k) / pieces));
   }
   if (!line.closed) places.push_back(fixed.back());
   return places;

@@ -48,6 +48,7 @@ const LineTracer& find_tracer(std::string_view name) {
       std::find_if(table.begin(), table.end(), [&](const LineTracer& tracer) { return tracer.name == name; });
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
+  names.reserve(table.size());
   for (const LineTracer& tracer : table) names.push_back(tracer.name);
   throw InvalidArgument(
       fmt::format("--trace: found {}, expected one of {}", quoted(name), fmt::join(names, ", ")));
