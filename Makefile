@@ -37,7 +37,8 @@ bench:
 	cmake --build --preset bench
 	build/bench/bin/keenline_bench
 	build/bench/bin/neighbors_bench all
-	build/bench/bin/speed_bench
+	scripts/models.sh build/models
+	build/bench/bin/speed_bench 3 build/models/data/points_3/building.ply
 
 benchmark: build
 	bench/edge_benchmark.sh build/release/bin/keenline ../shared/data/edge-benchmark build/benchmark

@@ -1,5 +1,3 @@
-#include "cgal_edges.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/vcm_estimate_edges.h>
 #include <CGAL/vcm_estimate_normals.h>
@@ -9,6 +7,8 @@
 #include "keenline/cloud.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/spacing.h"
+
+#include "rivals.h"
 
 namespace keenline::bench {
 

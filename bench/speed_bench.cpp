@@ -1,8 +1,8 @@
 // What finding sharp features costs, against finding the neighbours alone: on each cloud and in one run,
 // single-threaded, nanoflann's plain pass over all points, keenline's neighbour stage, and neighbours +
 // method gauss with the labels of all sensitivities; the textbook clustering on a sample of the points;
-// CGAL's Voronoi-covariance edges where CGAL is there; then the same with all threads. Then every other
-// method. Medians of the ratios over the rounds.
+// then the same with all threads. Then every other method, and the rivals that this machine has. Medians of
+// the ratios over the rounds.
 //
 //     speed_bench [ROUNDS [FILE…]]      FILE: a scan, measured as it is
 
@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,11 +29,9 @@
 #include "keenline/synth/synth.h"
 
 #include "nanoflann_pass.h"
+#include "rivals.h"
 #include "stop_watch.h"
 #include "support/textbook_gauss.h"
-#ifdef KEENLINE_BENCH_CGAL
-#include "cgal_edges.h"
-#endif
 
 namespace {
 
@@ -68,7 +67,6 @@ struct Round {
   double neighbors_s = 0;
   double gauss_s = 0;     // neighbours and labels
   double textbook_s = 0;  // of all points, from a sample
-  double cgal_s = 0;
   double speedup = 0;
 };
 
@@ -84,7 +82,7 @@ double textbook_s(const PointCloud& cloud, const Neighborhoods& table) {
   return clusters < 0 ? 0 : seconds * static_cast<double>(cloud.size()) / static_cast<double>(looked_at);
 }
 
-Round measure(Subject& subject, const GaussOptions& options, bool with_rivals) {
+Round measure(Subject& subject, const GaussOptions& options, bool with_textbook) {
   const PointCloud& cloud = subject.cloud;
   Round round;
   Neighborhoods table;
@@ -99,17 +97,18 @@ Round measure(Subject& subject, const GaussOptions& options, bool with_rivals) {
     round.nanoflann_s = bench::processor_s([&] { (void)bench::nanoflann_pass(cloud, neighbors); });
     round.neighbors_s = bench::processor_s([&] { table = find_neighborhoods(cloud, neighbors); });
     one_thread_s = bench::wall_s([&] { round.gauss_s = bench::processor_s(detect); });
-    if (with_rivals) {
+    if (with_textbook) {
       table = find_neighborhoods(cloud, options.neighbors);
       round.textbook_s = textbook_s(cloud, table);
-#ifdef KEENLINE_BENCH_CGAL
-      round.cgal_s = bench::processor_s([&] { (void)bench::cgal_edges(cloud); });
-#endif
     }
   }
   round.speedup = one_thread_s / bench::wall_s(detect);
   (void)add_labels(subject.cloud, labels);
   return round;
+}
+
+std::string f1_of(const Subject& subject) {
+  return subject.has_truth ? fmt::format("{:.3f}", f1(compare(subject.cloud, subject.cloud))) : "-";
 }
 
 double median_of(const std::vector<Round>& rounds, const std::function<double(const Round&)>& value) {
@@ -118,54 +117,64 @@ double median_of(const std::vector<Round>& rounds, const std::function<double(co
   return bench::median(values);
 }
 
-void report(Subject subject, int rounds_wanted, bool with_rivals) {
+/// `k`: neighbours, or 0 for the default of that noise.
+void report(Subject subject, int rounds_wanted, bool with_textbook, int k = 0) {
   const double noise = estimate_noise(subject.cloud, NeighborSearch(subject.cloud.positions));
-  const GaussOptions options = default_options(subject.cloud, noise);
+  GaussOptions options = default_options(subject.cloud, noise);
+  if (k > 0) options.neighbors = k;
   std::vector<Round> rounds;
-  for (int i = 0; i < rounds_wanted; ++i) rounds.push_back(measure(subject, options, with_rivals));
+  for (int i = 0; i < rounds_wanted; ++i) rounds.push_back(measure(subject, options, with_textbook));
   const double ns = 1e9 / static_cast<double>(subject.cloud.size());
-  const auto optional = [](double value, int digits) {
-    return value > 0 ? fmt::format("{:.{}f}", value, digits) : std::string("-");
-  };
-  fmt::print("{:<24} {:>9} {:>3} {:>9.0f} {:>9.0f} {:>9.0f} {:>8.2f} {:>9} {:>7} {:>8.2f} {:>6}\n",
-             subject.name, subject.cloud.size(), options.neighbors,
+  const double textbook = median_of(rounds, [](const Round& r) { return r.textbook_s / r.gauss_s; });
+  fmt::print("{:<24} {:>9} {:>3} {:>9.0f} {:>9.0f} {:>9.0f} {:>8.2f} {:>9} {:>8.2f} {:>6}\n", subject.name,
+             subject.cloud.size(), options.neighbors,
              median_of(rounds, [](const Round& r) { return r.nanoflann_s; }) * ns,
              median_of(rounds, [](const Round& r) { return r.neighbors_s; }) * ns,
              median_of(rounds, [](const Round& r) { return r.gauss_s; }) * ns,
              median_of(rounds, [](const Round& r) { return r.gauss_s / r.nanoflann_s; }),
-             optional(median_of(rounds, [](const Round& r) { return r.textbook_s / r.gauss_s; }), 0),
-             optional(median_of(rounds, [](const Round& r) { return r.cgal_s / r.gauss_s; }), 1),
-             median_of(rounds, [](const Round& r) { return r.speedup; }),
-             subject.has_truth ? fmt::format("{:.3f}", f1(compare(subject.cloud, subject.cloud)))
-                               : std::string("-"));
+             textbook > 0 ? fmt::format("{:.0f}", textbook) : "-",
+             median_of(rounds, [](const Round& r) { return r.speedup; }), f1_of(subject));
   std::fflush(stdout);
 }
 
-/// Every method of the registry with its defaults, neighbours included, on one thread.
+/// Every method of the registry with its defaults, then the rivals; neighbours included, on one thread.
 void report_methods(Subject subject, int rounds) {
   const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
   const PointCloud& cloud = subject.cloud;
   const double noise = estimate_noise(cloud, NeighborSearch(cloud.positions));
-  for (const Method& method : methods()) {
+  const auto run = [&](const Method& method, FeatureLabels& labels) {
+    OptionValues values = resolve_options(method, {});
+    method.adapt(values, noise, cloud.size());
+    const NeighborSearch search(cloud.positions);
+    labels = method.detect(cloud, search, values, no_progress());
+  };
+  const auto row = [&](const std::string& name, const std::function<void(FeatureLabels & labels)>& detect) {
     std::vector<double> seconds;
-    std::vector<double> ratios;
+    std::vector<double> to_nanoflann;
+    std::vector<double> to_gauss;
     FeatureLabels labels;
+    FeatureLabels unused;
     for (int i = 0; i < rounds; ++i) {
-      OptionValues values = resolve_options(method, {});
-      method.adapt(values, noise, cloud.size());
-      const double nanoflann_s = bench::processor_s([&] { (void)bench::nanoflann_pass(cloud, neighbors); });
-      seconds.push_back(bench::processor_s([&] {
-        const NeighborSearch search(cloud.positions);
-        labels = method.detect(cloud, search, values, no_progress());
-      }));
-      ratios.push_back(seconds.back() / nanoflann_s);
+      seconds.push_back(bench::processor_s([&] { detect(labels); }));
+      to_nanoflann.push_back(seconds.back() /
+                             bench::processor_s([&] { (void)bench::nanoflann_pass(cloud, neighbors); }));
+      to_gauss.push_back(seconds.back() / bench::processor_s([&] { run(find_method("gauss"), unused); }));
     }
     (void)add_labels(subject.cloud, labels);
-    fmt::print("{:<24} {:>9} {:<14} {:>9.0f} {:>8.2f} {:>6.3f}\n", subject.name, cloud.size(), method.name,
-               bench::median(seconds) * 1e9 / static_cast<double>(cloud.size()), bench::median(ratios),
-               f1(compare(subject.cloud, subject.cloud)));
+    fmt::print("{:<24} {:>9} {:<15} {:>9.0f} {:>9.2f} {:>8.2f} {:>6}\n", subject.name, cloud.size(), name,
+               bench::median(seconds) * 1e9 / static_cast<double>(cloud.size()), bench::median(to_nanoflann),
+               bench::median(to_gauss), f1_of(subject));
     std::fflush(stdout);
-  }
+  };
+  for (const Method& method : methods())
+    row(std::string(method.name), [&](FeatureLabels& labels) { run(method, labels); });
+  for (const bench::Rival& rival : bench::rivals())
+    row(rival.name, [&](FeatureLabels& labels) {
+      labels = {};
+      for (const bool sharp : rival.sharp_points(cloud))
+        labels.kind.push_back(sharp ? Kind::Edge : Kind::Flat);
+      labels.score.assign(labels.kind.size(), 0);
+    });
 }
 
 }  // namespace
@@ -173,23 +182,27 @@ void report_methods(Subject subject, int rounds) {
 int main(int argc, char** argv) {
   const int rounds = std::max(1, argc > 1 ? std::atoi(argv[1]) : 3);
   fmt::print("kernels: {}\n", kernels::target());
-  fmt::print("{:<24} {:>9} {:>3} {:>9} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8} {:>6}\n", "cloud", "points", "k",
-             "nanoflann", "neighbors", "gauss", "gauss /", "textbook", "CGAL /", "threads", "F1");
-  fmt::print("{:<24} {:>9} {:>3} {:>9} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8} {:>6}\n", "", "", "", "ns/point",
-             "ns/point", "ns/point", "nanofl.", "/ gauss", "gauss", "speedup", "");
+  fmt::print("{:<24} {:>9} {:>3} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>6}\n", "cloud", "points", "k",
+             "nanoflann", "neighbors", "gauss", "gauss /", "textbook", "threads", "F1");
+  fmt::print("{:<24} {:>9} {:>3} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>6}\n", "", "", "", "ns/point",
+             "ns/point", "ns/point", "nanofl.", "/ gauss", "speedup", "");
   for (const std::uint64_t points : {100'000U, 1'000'000U, 3'000'000U}) {
-    const bool with_rivals = points == 100'000;
+    const bool with_textbook = points == 100'000;
     const int repeats = points > 1'000'000 ? 1 : rounds;
-    report(synthetic("fandisk", points, 0), repeats, with_rivals);
-    report(synthetic("cube", points, 0), repeats, with_rivals);
-    report(synthetic("fandisk", points, 0.1), repeats, with_rivals);
+    report(synthetic("fandisk", points, 0), repeats, with_textbook);
+    report(synthetic("cube", points, 0), repeats, with_textbook);
+    report(synthetic("fandisk", points, 0.1), repeats, with_textbook, neighbors);
+    report(synthetic("fandisk", points, 0.1), repeats, with_textbook);
   }
+  std::vector<Subject> scans;
   for (int i = 2; i < argc; ++i) {
     const std::string path = argv[i];
-    report({path.substr(path.rfind('/') + 1), read_cloud(path).cloud, false}, rounds, true);
+    scans.push_back({path.substr(path.rfind('/') + 1), read_cloud(path).cloud, false});
+    report(scans.back(), rounds, true);
   }
-  fmt::print("\n{:<24} {:>9} {:<14} {:>9} {:>8} {:>6}\n{:<24} {:>9} {:<14} {:>9} {:>8} {:>6}\n", "cloud",
-             "points", "method", "with", "/ nano-", "F1", "", "", "", "neighbors", "flann", "");
-  report_methods(synthetic("fandisk", 100'000, 0), rounds);
-  report_methods(synthetic("fandisk", 100'000, 0.1), rounds);
+  fmt::print("\n{:<24} {:>9} {:<15} {:>9} {:>9} {:>8} {:>6}\n{:<24} {:>9} {:<15} {:>9} {:>9} {:>8} {:>6}\n",
+             "cloud", "points", "method", "ns/point", "/ nano-", "/ gauss", "F1", "", "", "", "", "flann", "",
+             "");
+  scans.insert(scans.begin(), {synthetic("fandisk", 100'000, 0), synthetic("fandisk", 100'000, 0.1)});
+  for (Subject& scan : scans) report_methods(std::move(scan), rounds);
 }

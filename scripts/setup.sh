@@ -10,7 +10,7 @@ headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/
 case $level in
   build) ;;
   bench)
-    packages+=(libbenchmark-dev libnanoflann-dev libcgal-dev)
+    packages+=(libbenchmark-dev libnanoflann-dev libcgal-dev libpcl-dev pkg-config)
     headers+=(benchmark/benchmark.h nanoflann.hpp) ;;
   test|check)
     packages+=(libgtest-dev python3 python3-ezdxf)
