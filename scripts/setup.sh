@@ -17,7 +17,7 @@ case $level in
     tools+=(python3)
     headers+=(gtest/gtest.h) ;;&
   check)
-    packages+=(clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)
+    packages+=(libocct-data-exchange-dev clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)
     tools+=(clang++-14 clang-tidy-14 clang-format-14) ;;
   test) ;;
   *) echo "setup: unknown level '$level': expected build, test, check or bench" >&2; exit 2 ;;

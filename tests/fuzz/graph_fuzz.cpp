@@ -8,6 +8,7 @@
 #include "keenline/errors.h"
 #include "keenline/io/graph_files.h"
 #include "keenline/io/graph_json.h"
+#include "keenline/io/graph_step.h"
 #include "keenline/io/sink.h"
 #include "keenline/io/source.h"
 
@@ -28,6 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const keenline::GraphFormat& format : keenline::graph_formats()) {
+    if (format.write == keenline::write_graph_step)
+      continue;  // OpenCASCADE refuses what is shorter than 1e-7
     keenline::StringSink sink;
     format.write(graph, sink, keenline::no_progress());
     if (format.extension != ".json") continue;

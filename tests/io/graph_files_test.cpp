@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "keenline/errors.h"
+#include "keenline/io/graph_step.h"
 
 #include "support/expect_error.h"
 #include "support/sample_graph.h"
@@ -25,7 +26,16 @@ TEST(GraphFiles, ExtensionChoosesTheFormat) {
   EXPECT_EQ(find_graph_format("a.geojson").extension, ".geojson");
   EXPECT_EQ(find_graph_format("a.json").extension, ".json");
   for (const char* const path : {"a", ".dxf", "a.dwg", "dxf", "a.dxf.gz"}) {
-    test::expect_error<InvalidArgument>([&] { (void)find_graph_format(path); }, path,
+    test::expect_error<InvalidArgument>([&] { (void)find_graph_format(path); }, path, graph_extensions());
+  }
+}
+
+TEST(GraphFiles, StepNeedsOpenCascade) {
+  if (has_step()) {
+    EXPECT_EQ(find_graph_format("a.stp").extension, ".stp");
+    EXPECT_EQ(graph_extensions(), ".dxf, .gpkg, .geojson, .json, .obj, .ply, .step or .stp");
+  } else {
+    test::expect_error<InvalidArgument>([] { (void)find_graph_format("a.step"); }, "'a.step'", "OpenCASCADE",
                                         ".dxf, .gpkg, .geojson, .json, .obj or .ply");
   }
 }

@@ -18,6 +18,7 @@ struct GraphFormat {
   void (*write)(const FeatureGraph& graph, Sink& sink, Progress& progress);
 };
 
+/// Those that this build can write: STEP only where it was built with OpenCASCADE.
 [[nodiscard]] std::span<const GraphFormat> graph_formats();
 
 /// ".dxf, .gpkg, … or .ply"
