@@ -57,21 +57,6 @@ void add_stick_vote(Symmetric3& tensor, const Point& normal, const Point& offset
   add_square(tensor, mirrored(normal, offset, square), weight * fade);
 }
 
-void add_plate_vote(Symmetric3& tensor, const Point& tangent, const Point& offset, double weight) {
-  // With r the unit offset, R = I - 2 r rᵀ, P = I - t tᵀ and a = P r: R (P - (|a|² P + 2 a aᵀ) / 4) R.
-  // R P R = I - (R t)(R t)ᵀ.
-  const double square = dot(offset, offset);
-  const double along = dot(tangent, offset);
-  const Point a = scaled(1 / std::sqrt(square), difference(offset, scaled(along, tangent)));
-  const Point mirrored_tangent = mirrored(tangent, offset, square);
-  const Point mirrored_a = mirrored(a, offset, square);
-  const double strength = weight * exp_of_negative(-square);
-  const double kept = strength * (1 - 0.25 * dot(a, a));
-  add_identity(tensor, kept);
-  add_square(tensor, mirrored_tangent, -kept);
-  add_square(tensor, mirrored_a, -0.5 * strength);
-}
-
 void add_ball_vote(Symmetric3& tensor, const Point& offset, double weight) {
   const double square = dot(offset, offset);
   const double strength = 0.8 * weight * exp_of_negative(-square);
