@@ -157,11 +157,11 @@ TEST(Demarsin, RefusesOptionsOutOfRange) {
   const auto refuses = [&](const DemarsinOptions& options, const char* name) {
     expect_error<InvalidArgument>([&] { (void)detect(cloud, options); }, name);
   };
-  refuses({.normal_neighbors = 2}, "--normal-neighbors");
-  refuses({.region_neighbors = 256}, "--region-neighbors");
-  refuses(at_angle(0.9), "--segment-angle");
-  refuses(at_angle(std::numeric_limits<double>::quiet_NaN()), "--segment-angle");
-  refuses({.min_patch = 0}, "--min-patch");
+  refuses({.normal_neighbors = 2}, "normal_neighbors");
+  refuses({.region_neighbors = 256}, "region_neighbors");
+  refuses(at_angle(0.9), "segment_angle_deg");
+  refuses(at_angle(std::numeric_limits<double>::quiet_NaN()), "segment_angle_deg");
+  refuses({.min_patch = 0}, "min_patch");
 }
 
 TEST(Demarsin, CanBeCancelled) {

@@ -209,11 +209,11 @@ TEST(TensorVoting, RefusesOptionsOutOfRange) {
   const auto refuses = [&](const TensorVotingOptions& options, const char* name) {
     expect_error<InvalidArgument>([&] { (void)detect_tensor_voting(cloud, search, options); }, name);
   };
-  refuses({.voting_scale = 0.9}, "--voting-scale");
-  refuses({.voting_scale = std::numeric_limits<double>::quiet_NaN()}, "--voting-scale");
-  refuses({.curvature_weight = -1}, "--curvature-weight");
-  refuses({.min_curve = 1.5}, "--min-curve");
-  refuses({.min_junction = -0.1}, "--min-junction");
+  refuses({.voting_scale = 0.9}, "voting_scale");
+  refuses({.voting_scale = std::numeric_limits<double>::quiet_NaN()}, "voting_scale");
+  refuses({.curvature_weight = -1}, "curvature_weight");
+  refuses({.min_curve = 1.5}, "min_curve");
+  refuses({.min_junction = -0.1}, "min_junction");
 }
 
 TEST(TensorVoting, CanBeCancelled) {

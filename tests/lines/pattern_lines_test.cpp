@@ -141,10 +141,15 @@ TEST(PatternLines, PointsAreThoseOfTheKindAndThoseBeside) {
   EXPECT_THROW((void)line_points(cloud, search, labels, 1, LineKind::Crease, no_progress()), InvalidArgument);
 }
 
-TEST(PatternLines, CyclesGrowWithTheRootOfTheCloud) {
-  EXPECT_EQ(shortest_cycle_for(0), 5U);
-  EXPECT_EQ(shortest_cycle_for(100), 5U);
-  EXPECT_EQ(shortest_cycle_for(12000), 54U);
+TEST(PatternLines, CyclesAreGivenOrFollowTheFinitePoints) {
+  PointCloud cloud;
+  EXPECT_EQ(cycle_of({}, cloud), 5U);
+  cloud.positions.assign(400, {1, 2, 3});
+  EXPECT_EQ(cycle_of({}, cloud), 10U);
+  cloud.positions.insert(cloud.positions.end(), 1000, {nan, 0, 0});
+  EXPECT_EQ(cycle_of({}, cloud), 10U);
+  EXPECT_EQ(cycle_of(1, cloud), 1U);
+  EXPECT_THROW((void)cycle_of(0, cloud), InvalidArgument);
 }
 
 }  // namespace

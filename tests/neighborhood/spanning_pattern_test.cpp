@@ -44,6 +44,14 @@ SpanningPattern comb(std::uint32_t last, const std::vector<std::pair<std::uint32
   return {next, edges, 100};
 }
 
+TEST(SpanningPattern, CyclesGrowWithTheRootOfTheCloud) {
+  EXPECT_EQ(shortest_cycle_for(0, 3), 3U);
+  EXPECT_EQ(shortest_cycle_for(100, 5), 5U);
+  EXPECT_EQ(shortest_cycle_for(12000, 5), 54U);
+  EXPECT_NO_THROW(require_cycle(1));
+  EXPECT_THROW(require_cycle(0), InvalidArgument);
+}
+
 TEST(SpanningPattern, ClosesCyclesThatAreLongEnough) {
   EXPECT_EQ(edge_count(SpanningPattern(10, ring(10), 9)), 9U);
   EXPECT_EQ(edge_count(SpanningPattern(10, ring(10), 8)), 10U);

@@ -6,35 +6,26 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "keenline/cloud.h"
 #include "keenline/detect/pattern_penalties.h"
-#include "keenline/errors.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/neighborhood/spanning_pattern.h"
+#include "keenline/require.h"
 
 namespace keenline {
 namespace {
 
 void validate(const GumholdOptions& options) {
-  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
-    if (!ok) throw InvalidArgument(fmt::format("{}: found {}, expected {}", name, found, expected));
-  };
   require_neighbor_count(options.neighbors);
-  require(options.crease_limit >= 0 && options.crease_limit <= 2, "crease_limit", options.crease_limit,
-          "0 to 2");
-  require(options.border_gap_deg >= 0 && options.border_gap_deg <= 360, "border_gap_deg",
-          options.border_gap_deg, "0 to 360 degrees");
-  if (options.shortest_cycle)
-    require(*options.shortest_cycle >= 1, "shortest_cycle", *options.shortest_cycle, "1 or more");
+  require_in_range("crease_limit", options.crease_limit, 0, 2);
+  require_in_range("border_gap_deg", options.border_gap_deg, 0, 360);
+  if (options.shortest_cycle) require_cycle(*options.shortest_cycle);
 }
 
 class Detector {
@@ -138,7 +129,7 @@ class Detector {
     if (options_.shortest_cycle) return static_cast<std::size_t>(*options_.shortest_cycle);
     const auto points = std::count_if(penalties_.begin(), penalties_.end(),
                                       [](const PointPenalties& p) { return p.distance > 0; });
-    return std::max<std::size_t>(3, static_cast<std::size_t>(std::sqrt(static_cast<double>(points)) / 2));
+    return shortest_cycle_for(static_cast<std::size_t>(points), 3);
   }
 
   [[nodiscard]] FeatureLabels labels_of(const SpanningPattern& creases,

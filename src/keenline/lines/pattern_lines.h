@@ -33,8 +33,9 @@ struct LinePoints {
                                      const FeatureLabels& labels, double spacing, LineKind kind,
                                      const Progress& progress);
 
-/// Half the square root of the number of points: how many edges the papers ask of a cycle. At least 5.
-[[nodiscard]] std::size_t shortest_cycle_for(std::size_t points_of_cloud);
+/// `given`, or half the square root of the number of finite points, at least 5.
+/// \throw InvalidArgument unless `given` is 1 or more
+[[nodiscard]] std::size_t cycle_of(std::optional<int> given, const PointCloud& cloud);
 
 /// The pattern of the points by these weights, one for every edge, cleaned as the papers have it: components
 /// with fewer nodes than `cycle` edges dropped, branches with less than half as many edges cut.
