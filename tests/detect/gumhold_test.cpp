@@ -212,6 +212,14 @@ TEST(Gumhold, WhatCannotBeToldIsUndecided) {
   EXPECT_EQ(labels_of(cloud).size(), 102U);
 }
 
+TEST(Gumhold, PointsThatCoincideAreOneOfThePattern) {
+  PointCloud cloud = shape("cube", 3000);
+  const Point place = cloud.positions[0];
+  cloud.positions.insert(cloud.positions.end(), 20000, place);
+  const FeatureLabels labels = labels_of(cloud);
+  for (std::size_t i = 3000; i < cloud.size(); ++i) EXPECT_EQ(labels.kind[i], labels.kind[0]);
+}
+
 TEST(Gumhold, RefusesWhatIsOutOfRange) {
   const PointCloud cloud = shape("cube", 100);
   const NeighborSearch search(cloud.positions);

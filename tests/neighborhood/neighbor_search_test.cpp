@@ -114,6 +114,17 @@ TEST(NeighborSearch, VisitsEveryFinitePointOnceInTheSameBlocks) {
   }
 }
 
+TEST(NeighborSearch, OfPointsThatCoincideTheFirstIsKnown) {
+  using Numbers = std::vector<std::uint32_t>;
+  const std::vector<Point> some{{1, 0, 0},    {nan, 0, 0}, {0.0, 0, 0}, {1, 0, 0},
+                                {-0.0, 0, 0}, {nan, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(NeighborSearch(some).first_coincident(), (Numbers{0, 1, 2, 0, 2, 5, 0}));
+  const std::vector<Point> apart{{1, 0, 0}, {2, 0, 0}};
+  EXPECT_EQ(NeighborSearch(apart).first_coincident(), (Numbers{0, 1}));
+  const std::vector<Point> none;
+  EXPECT_EQ(NeighborSearch(none).first_coincident(), Numbers{});
+}
+
 class Counter : public Progress {
  public:
   void advance(std::uint64_t units) override { done += units; }

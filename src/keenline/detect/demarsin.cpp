@@ -86,7 +86,9 @@ Kind kind_of(const Segments& segments, View& view, std::uint32_t point, const Ne
 FeatureLabels detect_demarsin(const PointCloud& cloud, const NeighborSearch& search,
                               const DemarsinOptions& options, Progress& progress) {
   require_usable(options);
-  constexpr std::uint64_t bytes_per_point = sizeof(Point) + sizeof(float) + 3 * sizeof(std::uint32_t);
+  // Normal, bend, label, the order and extent of regions; the table of neighbours.
+  const std::uint64_t bytes_per_point =
+      60 + sizeof(std::uint32_t) * static_cast<std::uint64_t>(options.region_neighbors);
   require_memory(cloud.size() * bytes_per_point, "segmentation by normals");
   progress.begin("demarsin", 3 * cloud.size());
   Segments segments = segment_by_normals(

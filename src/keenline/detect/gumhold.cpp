@@ -28,6 +28,10 @@ void validate(const GumholdOptions& options) {
   if (options.shortest_cycle) require_cycle(*options.shortest_cycle);
 }
 
+/// Penalties, first of its place, two patterns with their working memory, label and score.
+constexpr std::uint64_t bytes_per_point =
+    sizeof(PointPenalties) + 2 * sizeof(std::uint32_t) + 2 * sizeof(std::vector<std::uint32_t>) + 6;
+
 class Detector {
  public:
   Detector(const PointCloud& cloud, const NeighborSearch& search, const GumholdOptions& options,
@@ -36,7 +40,8 @@ class Detector {
         search_(search),
         options_(options),
         progress_(progress),
-        penalties_((require_memory(cloud.size() * sizeof(PointPenalties), "penalties"), cloud.size())) {}
+        first_(search.first_coincident()),
+        penalties_((require_memory(cloud.size() * bytes_per_point, "penalties"), cloud.size())) {}
 
   FeatureLabels run() {
     search_.for_each_block(
@@ -72,6 +77,9 @@ class Detector {
     return is_decided(i) && penalties_[i].gap_deg > options_.border_gap_deg;
   }
 
+  /// Points that coincide would each be connected with all that is near them: one of them is.
+  [[nodiscard]] bool stands_for_its_place(std::uint32_t i) const { return first_[i] == i; }
+
   void look_at(std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
     progress_.check();
     LocalOffsets local;
@@ -106,9 +114,10 @@ class Detector {
           std::vector<WeightedEdge> found;
           LocalOffsets local;
           for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!stands_for_its_place(points[i])) continue;
             for (const std::uint32_t neighbor : neighborhoods.of(i)) {
               const auto [a, b] = std::minmax(points[i], neighbor);
-              if (!may(a, b)) continue;
+              if (!stands_for_its_place(neighbor) || !may(a, b)) continue;
               const Way way = way_between(positions_, penalties_, a, b, local);
               const double p = penalty(a, b, way);
               if (p < limit) found.push_back({a, b, p + way.relative_length});
@@ -136,7 +145,7 @@ class Detector {
                                         const SpanningPattern& borders) const {
     FeatureLabels labels;
     for (std::uint32_t i = 0; i < size(); ++i) {
-      labels.kind.push_back(kind_of(i, creases.degree_of(i), borders.degree_of(i)));
+      labels.kind.push_back(kind_of(i, creases.degree_of(first_[i]), borders.degree_of(first_[i])));
       labels.score.push_back(is_decided(i) ? static_cast<float>(1 - crease_penalty(penalties_[i], rule_))
                                            : 0);
     }
@@ -155,6 +164,7 @@ class Detector {
   const NeighborSearch& search_;
   const GumholdOptions& options_;
   Progress& progress_;
+  std::vector<std::uint32_t> first_;  // at the place of each point
   std::vector<PointPenalties> penalties_;
   PenaltyRule rule_;
 };

@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include "keenline/cloud.h"
 #include "keenline/detect/local_pca.h"
 #include "keenline/kernels/portable_math.h"
@@ -100,7 +103,12 @@ class Detector {
     const std::vector<bool> feature = grow(limit);
     FeatureLabels labels;
     labels.kind.resize(size());
-    for (std::uint32_t i = 0; i < size(); ++i) labels.kind[i] = kind_of(i, feature);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size(), 1024),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        progress_.check();
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          labels.kind[i] = kind_of(static_cast<std::uint32_t>(i), feature);
+                      });
     labels.score = std::move(mean_);
     labels.threshold = limit;
     return labels;

@@ -134,8 +134,8 @@ void count_support(PatternLines& lines, const std::vector<std::uint32_t>& line_a
     offer(edge.a, edge.b, edge.weight);
     offer(edge.b, edge.a, edge.weight);
   }
-  for (const std::uint32_t line : nearest)
-    if (line != none) ++lines.lines[line].support;
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+    if (nearest[i] != none) lines.lines[nearest[i]].support += points.copies[i];
 }
 
 }  // namespace
@@ -144,19 +144,8 @@ LinePoints line_points(const PointCloud& cloud, const NeighborSearch& search, co
                        double spacing, LineKind kind, const Progress& progress) {
   if (labels.size() != cloud.size())
     throw InvalidArgument(fmt::format("{} labels for {} points", labels.size(), cloud.size()));
-  LinePoints result;
-  if (!(spacing > 0) || std::isinf(spacing)) return result;
-  result.frame.spacing = spacing;
   const std::vector<bool> is_member = members_of(cloud, search, labels, kind, progress);
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const Point& p = cloud.positions[i];
-    if (!is_member[i] || !is_drawable(p)) continue;
-    if (result.points.empty()) result.frame.origin = p;
-    const Point position = result.frame.local(p);
-    if (!is_drawable(position)) continue;
-    result.points.push_back(i);
-    result.positions.push_back(position);
-  }
+  LinePoints result{place_points(cloud, search, is_member, spacing), {}};
   result.edges = edges_between(result.positions, progress);
   return result;
 }

@@ -110,7 +110,7 @@ FeatureGraph trace_demarsin(const PointCloud& cloud, const NeighborSearch& searc
   close_ends(net, options.close_reach, options.close_ratio, progress);
   net.drop_parts_below(options.min_branch);
   clean_up(net, options);
-  smooth(net, options.smooth_rounds);
+  smooth(net, options.smooth_rounds, progress);
   return graph_of(net, candidates, clusters.sizes);
 }
 

@@ -17,6 +17,7 @@
 #include "keenline/lines/candidates.h"
 #include "keenline/lines/finish_net.h"
 #include "keenline/lines/line_net.h"
+#include "keenline/memory.h"
 #include "keenline/require.h"
 #include "keenline/vectors.h"
 
@@ -47,6 +48,7 @@ std::vector<CurveToken> vote(const PointCloud& cloud, const NeighborSearch& sear
                              const Candidates& candidates, const TraceTensorVotingOptions& options,
                              Progress& progress) {
   const int count = voters_within(options.voting_scale);
+  require_memory(cloud.size() * sizeof(Stick) + candidates.size() * sizeof(CurveToken), "tensor voting");
   tbb::enumerable_thread_specific<Voters> workspace;
   std::vector<Stick> sticks(cloud.size());
   search.for_each_block(
@@ -181,7 +183,7 @@ class CurveWalker {
       const bool is_near = distance(candidates_.positions()[candidate], here.position) <= passed_within;
       if (is_passed_[candidate] || !is_near) return;
       is_passed_[candidate] = true;
-      ++count;
+      count += candidates_.copies()[candidate];
     };
     for (const std::uint32_t candidate : candidates_.near(here.candidate)) pass_one(candidate);
     pass_one(here.candidate);
