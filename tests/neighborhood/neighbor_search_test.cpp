@@ -11,6 +11,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/nearest_by_force.h"
 #include "support/uneven_clouds.h"
 
@@ -140,14 +141,9 @@ TEST(NeighborSearch, ReportsEachPointOnce) {
   EXPECT_EQ(progress.done, 5000U);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(NeighborSearch, CanBeCancelled) {
   const std::vector<Point> points = test::random_points(5000, 7);
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW(const NeighborSearch search(points, progress), Cancelled);
   const NeighborSearch search(points);
   EXPECT_THROW(search.for_each_block(

@@ -11,6 +11,8 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
+
 namespace keenline {
 namespace {
 
@@ -192,13 +194,8 @@ TEST(SpanningPattern, NothingIsAPatternToo) {
   EXPECT_TRUE(SpanningPattern(7, {}, 5).chains().empty());
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(SpanningPattern, CanBeCancelled) {
-  EXPECT_THROW((void)SpanningPattern(5, ring(5), 3, Stopped()), Cancelled);
+  EXPECT_THROW((void)SpanningPattern(5, ring(5), 3, test::CancelledProgress()), Cancelled);
 }
 
 }  // namespace
