@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keenline/detect/registry.h"
+#include "keenline/lines/tracers.h"
 
 #include "commands.h"
 #include "terminal.h"
@@ -50,7 +51,10 @@ void list_as_json() {
                     {"input", word_for(method.input)},
                     {"options", options}});
   }
-  print_json({{"methods", std::move(list)}});
+  nlohmann::json tracers = nlohmann::json::array();
+  for (const LineTracer& tracer : line_tracers())
+    tracers.push_back({{"name", tracer.name}, {"summary", tracer.summary}, {"paper", tracer.paper}});
+  print_json({{"methods", std::move(list)}, {"tracers", std::move(tracers)}});
 }
 
 void list_as_text() {
@@ -69,13 +73,19 @@ void list_as_text() {
       text += '\n';
     }
   }
+  text += "\nlines, by --trace:\n";
+  for (const LineTracer& tracer : line_tracers()) {
+    text += fmt::format("{}  {}\n", tracer.name, tracer.summary);
+    if (!tracer.paper.empty()) text += fmt::format("    paper: {}\n", tracer.paper);
+  }
   print(text);
 }
 
 }  // namespace
 
 void add_methods(CLI::App& app, Action& action) {
-  CLI::App* const command = app.add_subcommand("methods", "List the methods and their options");
+  CLI::App* const command =
+      app.add_subcommand("methods", "List the methods and their options, and the ways to trace lines");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "As one JSON object");
   command->callback([&action, json] { action = [json] { *json ? list_as_json() : list_as_text(); }; });

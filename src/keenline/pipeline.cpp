@@ -149,7 +149,7 @@ FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, con
   FeatureGraph graph = find_tracer(job.trace).trace(cloud, search, labels, spacing, progress);
   if (job.snap) graph = snap_lines(graph, cloud, search, spacing, {}, progress);
   else if (job.smooth_lines) graph = smooth_lines(graph);
-  if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing);
+  if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing, progress);
   if (job.fit_spacings > 0) graph = fit_lines(graph, job.fit_spacings * spacing, progress);
   // Snapping has looked at the sides already.
   if (!job.snap) measure_sides(graph, cloud, search, spacing, progress);

@@ -188,13 +188,21 @@ class Others(FolderTest):
         self.assertEqual(info["bounding_box"], {"min": [1, 2, 3], "max": [1, 2, 3]})
         self.assertIn("2 points, 1 of them finite", run("info", path).stdout)
 
-    def test_methods_lists_gauss_with_its_options(self):
+    def test_methods_lists_gauss_with_its_options_and_the_tracers(self):
         listing = run_json("methods")
         gauss = listing["methods"][0]
         self.assertEqual(gauss["name"], "gauss")
         self.assertEqual([o["name"] for o in gauss["options"]],
                          ["neighbors", "scales", "sigma", "min-cluster", "max-clusters", "min-sine", "persistence", "min-support", "thin", "plain", "spectrum"])
-        self.assertIn("Weber", run("methods").stdout)
+        text = run("methods").stdout
+        self.assertIn("Weber", text)
+        self.assertEqual(listing["tracers"][0]["name"], "walk")
+        for tracer in listing["tracers"]:
+            self.assertIn(f"\n{tracer['name']}  {tracer['summary']}\n", text)
+            self.assertIn(tracer["paper"], text)
+        # The list is that of --trace.
+        names = ", ".join(tracer["name"] for tracer in listing["tracers"])
+        self.expect_refusal(run("lines", self.write("one.csv", "x,y,z\n1,2,3\n"), "-o", self.path("out.dxf"), "--trace", "magic"), 2, names)
 
     def test_synth_writes_truth_and_repeats_itself(self):
         for name in ("a.ply", "b.ply"):

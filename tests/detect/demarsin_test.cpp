@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
@@ -16,7 +15,6 @@
 
 #include "support/expect_error.h"
 #include "support/motion.h"
-#include "support/sample_graph.h"
 
 namespace keenline {
 namespace {
@@ -127,10 +125,6 @@ TEST(Demarsin, SeesTheSameHoweverTheCloudLies) {
   EXPECT_LE(differing(detect(test::moved(cloud, 1, {0, 0, 0}))), 10U);
   EXPECT_LE(differing(detect(test::moved(cloud, 1e-150, {0, 0, 0}))), 10U);
   EXPECT_LE(differing(detect(test::moved(cloud, 1, {4e6, 5e6, 100}))), 10U);
-  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  const FeatureLabels alone = detect(cloud);
-  EXPECT_EQ(alone.kind, expected.kind);
-  EXPECT_EQ(alone.score, expected.score);
 }
 
 TEST(Demarsin, DegenerateCloudsAreAnswered) {
@@ -157,18 +151,11 @@ TEST(Demarsin, RefusesOptionsOutOfRange) {
   const auto refuses = [&](const DemarsinOptions& options, const char* name) {
     expect_error<InvalidArgument>([&] { (void)detect(cloud, options); }, name);
   };
-  refuses({.normal_neighbors = 2}, "--normal-neighbors");
-  refuses({.region_neighbors = 256}, "--region-neighbors");
-  refuses(at_angle(0.9), "--segment-angle");
-  refuses(at_angle(std::numeric_limits<double>::quiet_NaN()), "--segment-angle");
-  refuses({.min_patch = 0}, "--min-patch");
-}
-
-TEST(Demarsin, CanBeCancelled) {
-  const PointCloud cloud = shape("cube", 500).cloud;
-  const NeighborSearch search(cloud.positions);
-  test::CancelledProgress progress;
-  EXPECT_THROW((void)detect_demarsin(cloud, search, {}, progress), Cancelled);
+  refuses({.normal_neighbors = 2}, "normal_neighbors");
+  refuses({.region_neighbors = 256}, "region_neighbors");
+  refuses(at_angle(0.9), "segment_angle_deg");
+  refuses(at_angle(std::numeric_limits<double>::quiet_NaN()), "segment_angle_deg");
+  refuses({.min_patch = 0}, "min_patch");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/synth/synth.h"
 
+#include "support/cancelled_progress.h"
 #include "support/motion.h"
 
 namespace keenline {
@@ -93,14 +94,9 @@ TEST(Noise, PassesOverWhatIsNotFiniteOrFarAway) {
   EXPECT_NEAR(noise_of(cloud), noise, 0.01);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Noise, CanBeCancelled) {
   const PointCloud cloud = shape("plane", 0.1, Sampling::Random, 500);
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)estimate_noise(cloud, NeighborSearch(cloud.positions), progress), Cancelled);
 }
 

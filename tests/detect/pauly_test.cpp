@@ -5,13 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
@@ -235,32 +232,6 @@ TEST(Pauly, DoesNotDependOnScalePlaceOrDirection) {
   EXPECT_EQ(labels_of(huge).score, labels.score);
 }
 
-TEST(Pauly, DoesNotDependOnTheOrderOfThePoints) {
-  const PointCloud cloud = shape("cylinder", 6000);
-  std::vector<std::size_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), std::mt19937(7));
-  PointCloud shuffled;
-  for (const std::size_t i : order) shuffled.positions.push_back(cloud.positions[i]);
-  const FeatureLabels labels = labels_of(cloud);
-  const FeatureLabels found = labels_of(shuffled);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    EXPECT_EQ(found.kind[i], labels.kind[order[i]]);
-    EXPECT_EQ(found.score[i], labels.score[order[i]]);
-  }
-}
-
-TEST(Pauly, IsTheSameForAnyNumberOfThreads) {
-  const PointCloud cloud = shape("fandisk", 8000, 0.1);
-  const FeatureLabels labels = labels_of(cloud);
-  for (const std::size_t threads : {1U, 2U, 16U}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const FeatureLabels found = labels_of(cloud);
-    EXPECT_EQ(found.kind, labels.kind);
-    EXPECT_EQ(found.score, labels.score);
-  }
-}
-
 TEST(Pauly, WhatCannotBeToldIsUndecided) {
   PointCloud cloud;
   EXPECT_EQ(labels_of(cloud).size(), 0U);
@@ -294,17 +265,6 @@ TEST(Pauly, RefusesWhatIsOutOfRange) {
   refuses([](PaulyOptions& o) { o.grow_share = 0.96; }, "grow_share");
   refuses([](PaulyOptions& o) { o.turn_deg = 91; }, "turn_deg");
   refuses([](PaulyOptions& o) { o.border_gap_deg = 361; }, "border_gap_deg");
-}
-
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
-TEST(Pauly, CanBeCancelled) {
-  const PointCloud cloud = shape("cube", 1000);
-  Stopped progress;
-  EXPECT_THROW((void)detect_pauly(cloud, NeighborSearch(cloud.positions), {}, progress), Cancelled);
 }
 
 }  // namespace

@@ -1,8 +1,16 @@
 #include "keenline/detect/registry.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <random>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/demarsin.h"
@@ -13,7 +21,9 @@
 #include "keenline/detect/voters.h"
 #include "keenline/errors.h"
 #include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/synth/synth.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -249,6 +259,66 @@ TEST(Registry, TensorVotingOptionsAreThoseOfTheMethod) {
   const PointCloud none;
   (void)method.detect(none, NeighborSearch(none.positions), chosen, no_progress());
   EXPECT_TRUE(chosen.at("min-curve").has_value());
+}
+
+FeatureLabels labels_by(const Method& method, const PointCloud& cloud, Progress& progress = no_progress()) {
+  OptionValues values = resolve_options(method, {});
+  method.adapt(values, 0, cloud.size());
+  return method.detect(cloud, NeighborSearch(cloud.positions), values, progress);
+}
+
+PointCloud shape(const std::string& name, std::uint64_t points, double noise_h = 0) {
+  SynthOptions options;
+  options.shape = name;
+  options.points = points;
+  options.noise.amount = noise_h;
+  return synthesize(options).cloud;
+}
+
+TEST(Registry, NoMethodDependsOnTheOrderOfThePoints) {
+  const PointCloud cloud = shape("cylinder", 4000);
+  std::vector<std::size_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), std::mt19937(7));
+  PointCloud shuffled;
+  for (const std::size_t i : order) shuffled.positions.push_back(cloud.positions[i]);
+  for (const Method& method : methods()) {
+    const FeatureLabels labels = labels_by(method, cloud);
+    const FeatureLabels found = labels_by(method, shuffled);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      EXPECT_EQ(found.kind[i], labels.kind[order[i]]) << method.name;
+      EXPECT_EQ(found.score[i], labels.score[order[i]]) << method.name;
+    }
+  }
+}
+
+TEST(Registry, EveryMethodSaysTheSameWithAnyNumberOfThreads) {
+  const PointCloud cloud = shape("fandisk", 5000, 0.1);
+  for (const Method& method : methods()) {
+    const FeatureLabels labels = labels_by(method, cloud);
+    for (const std::size_t threads : {1U, 2U, 16U}) {
+      const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+      const FeatureLabels found = labels_by(method, cloud);
+      EXPECT_EQ(found.kind, labels.kind) << method.name;
+      EXPECT_EQ(found.score, labels.score) << method.name;
+    }
+  }
+}
+
+TEST(Registry, EveryMethodStopsWheneverItIsTold) {
+  const PointCloud cloud = shape("cube", 1000);
+  // In one thread they ask as often every time.
+  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  for (const Method& method : methods()) {
+    test::CancelledProgress never(std::numeric_limits<std::uint64_t>::max());
+    (void)labels_by(method, cloud, never);
+    EXPECT_GE(never.asked(), 1U) << method.name;
+    for (const std::uint64_t at : test::some_up_to(never.asked())) {
+      test::CancelledProgress progress(at);
+      EXPECT_THROW((void)labels_by(method, cloud, progress), Cancelled)
+          << method.name << ", " << at << " of " << never.asked();
+    }
+  }
 }
 
 }  // namespace

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "keenline/cloud.h"
 #include "keenline/errors.h"
@@ -18,7 +15,6 @@
 
 #include "support/expect_error.h"
 #include "support/motion.h"
-#include "support/sample_graph.h"
 
 namespace keenline {
 namespace {
@@ -163,23 +159,6 @@ TEST(TensorVoting, SeesTheSameHoweverTheCloudLies) {
   EXPECT_LE(differing(detect(test::moved(cloud, 1, {0, 0, 0}))), 2U);
   EXPECT_LE(differing(detect(test::moved(cloud, 1e-150, {0, 0, 0}))), 2U);
   EXPECT_LE(differing(detect(test::moved(cloud, 1, {4e6, 5e6, 100}))), 2U);
-
-  std::vector<std::size_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::shuffle(order.begin(), order.end(), std::mt19937(2));
-  PointCloud shuffled;
-  for (const std::size_t i : order) shuffled.positions.push_back(cloud.positions[i]);
-  const FeatureLabels found = detect(shuffled);
-  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(found.kind[i], expected.kind[order[i]]);
-}
-
-TEST(TensorVoting, ThreadsChangeNothing) {
-  const PointCloud cloud = shape("trim-star", 4000, 0.1).cloud;
-  const FeatureLabels expected = detect(cloud);
-  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  const FeatureLabels alone = detect(cloud);
-  EXPECT_EQ(alone.kind, expected.kind);
-  EXPECT_EQ(alone.score, expected.score);
 }
 
 TEST(TensorVoting, DegenerateCloudsAreAnswered) {
@@ -209,18 +188,11 @@ TEST(TensorVoting, RefusesOptionsOutOfRange) {
   const auto refuses = [&](const TensorVotingOptions& options, const char* name) {
     expect_error<InvalidArgument>([&] { (void)detect_tensor_voting(cloud, search, options); }, name);
   };
-  refuses({.voting_scale = 0.9}, "--voting-scale");
-  refuses({.voting_scale = std::numeric_limits<double>::quiet_NaN()}, "--voting-scale");
-  refuses({.curvature_weight = -1}, "--curvature-weight");
-  refuses({.min_curve = 1.5}, "--min-curve");
-  refuses({.min_junction = -0.1}, "--min-junction");
-}
-
-TEST(TensorVoting, CanBeCancelled) {
-  const PointCloud cloud = shape("cube", 500).cloud;
-  const NeighborSearch search(cloud.positions);
-  test::CancelledProgress progress;
-  EXPECT_THROW((void)detect_tensor_voting(cloud, search, {}, progress), Cancelled);
+  refuses({.voting_scale = 0.9}, "voting_scale");
+  refuses({.voting_scale = std::numeric_limits<double>::quiet_NaN()}, "voting_scale");
+  refuses({.curvature_weight = -1}, "curvature_weight");
+  refuses({.min_curve = 1.5}, "min_curve");
+  refuses({.min_junction = -0.1}, "min_junction");
 }
 
 }  // namespace

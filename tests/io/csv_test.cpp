@@ -19,6 +19,7 @@
 #include "keenline/io/xyz.h"
 #include "keenline/progress.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -198,11 +199,6 @@ class FullDisk : public Sink {
   int writes = 0;
 };
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Csv, PassesOnWhatGoesWrong) {
   FullDisk disk;
   const PointCloud cloud = random_cloud(30'000);
@@ -210,7 +206,7 @@ TEST(Csv, PassesOnWhatGoesWrong) {
                                   "a.csv: no space left");
   EXPECT_EQ(disk.writes, 3);
   StringSink sink;
-  Stopped stopped;
+  test::CancelledProgress stopped;
   EXPECT_THROW((void)write_csv(cloud, sink, stopped), Cancelled);
 }
 

@@ -5,6 +5,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/sample_graph.h"
 
 namespace keenline {

@@ -11,6 +11,7 @@
 #include "keenline/errors.h"
 #include "keenline/io/records.h"
 
+#include "support/cancelled_progress.h"
 #include "support/sample_graph.h"
 
 namespace keenline {

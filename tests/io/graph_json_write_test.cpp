@@ -3,6 +3,7 @@
 #include "keenline/errors.h"
 #include "keenline/io/graph_json.h"
 
+#include "support/cancelled_progress.h"
 #include "support/sample_graph.h"
 
 namespace keenline {

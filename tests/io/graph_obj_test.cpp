@@ -6,6 +6,7 @@
 #include "keenline/io/obj.h"
 #include "keenline/io/source.h"
 
+#include "support/cancelled_progress.h"
 #include "support/sample_graph.h"
 
 namespace keenline {

@@ -8,6 +8,7 @@
 #include "keenline/io/ply.h"
 #include "keenline/io/source.h"
 
+#include "support/cancelled_progress.h"
 #include "support/sample_graph.h"
 
 namespace keenline {

@@ -9,6 +9,8 @@
 #include "keenline/errors.h"
 #include "keenline/progress.h"
 
+#include "support/cancelled_progress.h"
+
 namespace keenline {
 namespace {
 
@@ -84,14 +86,9 @@ TEST(Lzf, AnyBytesAreReadOrRefused) {
   }
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Lzf, CanBeCancelled) {
   std::vector<char> output(1);
-  const Stopped stopped;
+  const test::CancelledProgress stopped;
   EXPECT_THROW((void)decompress_lzf("\0a"s, output, stopped), Cancelled);
 }
 

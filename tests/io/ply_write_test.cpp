@@ -15,6 +15,7 @@
 #include "keenline/progress.h"
 
 #include "support/bytes.h"
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -265,16 +266,11 @@ TEST(PlyWrite, WritesTheSameWithAnyNumberOfThreads) {
   expect_same(again.attributes[0], cloud.attributes[0]);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(PlyWrite, CanBeCancelled) {
   PointCloud cloud;
   cloud.positions.resize(10);
   StringSink sink;
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)write_ply(cloud, sink, progress), Cancelled);
 }
 

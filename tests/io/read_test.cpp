@@ -4,6 +4,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -34,17 +35,12 @@ TEST(Read, RefusesFilesThatSayNothing) {
   test::expect_error<InputError>([&] { (void)read_cloud(path); }, path + ": byte 0", "nothing but blanks");
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Read, CanBeCancelled) {
   const test::TemporaryFolder folder;
   std::string text;
   for (int i = 0; i < 200000; ++i) text += "1 2 3\n";
   const std::string path = folder.write("long.xyz", text);
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)read_cloud(path, progress), Cancelled);
 }
 

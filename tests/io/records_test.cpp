@@ -11,6 +11,7 @@
 #include "keenline/progress.h"
 
 #include "support/bytes.h"
+#include "support/cancelled_progress.h"
 
 namespace keenline {
 namespace {
@@ -73,16 +74,11 @@ TEST(Records, AreTakenApartInBothByteOrders) {
   }
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Records, CanBeCancelled) {
   const std::string bytes(1000, '\0');
   std::vector<std::byte> target(1000);
   const std::vector<RecordField> fields{{0, ScalarType::UInt8, 1, target.data()}};
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW(unpack_records({bytes.data(), 1000, 1}, fields, progress), Cancelled);
 }
 

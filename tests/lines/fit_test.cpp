@@ -9,6 +9,7 @@
 #include "keenline/lines/fit_spline.h"
 #include "keenline/vectors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/rough_lines.h"
 #include "support/uneven_clouds.h"
 
@@ -145,13 +146,8 @@ TEST(FitLines, RefusesWhatIsOutOfRange) {
   EXPECT_THROW((void)fit_lines({}, std::numeric_limits<double>::quiet_NaN()), InvalidArgument);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(FitLines, CanBeCancelled) {
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)fit_lines(graph_of({.vertices = {{0, 0, 0}, {1, 0, 0}}}), 1, progress), Cancelled);
 }
 

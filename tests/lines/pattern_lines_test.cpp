@@ -30,7 +30,10 @@ struct Drawing {
                               const std::vector<std::pair<int, int>>& edges) {
     LinePoints result;
     result.positions = positions;
-    for (std::uint32_t i = 0; i < positions.size(); ++i) result.points.push_back(i);
+    for (std::uint32_t i = 0; i < positions.size(); ++i) {
+      result.points.push_back(i);
+      result.copies.push_back(1);
+    }
     for (const auto& [a, b] : edges) {
       const auto from = static_cast<std::uint32_t>(std::min(a, b));
       const auto to = static_cast<std::uint32_t>(std::max(a, b));
@@ -141,10 +144,37 @@ TEST(PatternLines, PointsAreThoseOfTheKindAndThoseBeside) {
   EXPECT_THROW((void)line_points(cloud, search, labels, 1, LineKind::Crease, no_progress()), InvalidArgument);
 }
 
-TEST(PatternLines, CyclesGrowWithTheRootOfTheCloud) {
-  EXPECT_EQ(shortest_cycle_for(0), 5U);
-  EXPECT_EQ(shortest_cycle_for(100), 5U);
-  EXPECT_EQ(shortest_cycle_for(12000), 54U);
+/// A row of a hundred points, and on one of them as many copies as there are.
+TEST(PatternLines, PointsThatCoincideAreOneNode) {
+  constexpr std::uint32_t copies = 20000;
+  PointCloud cloud;
+  for (int i = 0; i < 100; ++i) cloud.positions.push_back({1.0 * i, 0, 0});
+  FeatureLabels labels;
+  labels.kind.assign(100, Kind::Edge);
+  const NeighborSearch search(cloud.positions);
+  const LinePoints alone = line_points(cloud, search, labels, 1, LineKind::Crease, no_progress());
+  cloud.positions.insert(cloud.positions.end(), copies, cloud.positions[50]);
+  labels.kind.resize(cloud.size(), Kind::Edge);
+  const NeighborSearch among_copies(cloud.positions);
+  const LinePoints points = line_points(cloud, among_copies, labels, 1, LineKind::Crease, no_progress());
+  EXPECT_EQ(points.points, alone.points);
+  EXPECT_EQ(points.edges.size(), alone.edges.size());
+  const SpanningPattern pattern = clean_pattern(points, points.edges, 5, no_progress());
+  const PatternLines lines = lines_of(pattern, points);
+  ASSERT_EQ(lines.lines.size(), 1U);
+  EXPECT_EQ(lines.lines[0].vertices.size(), 100U);
+  EXPECT_EQ(lines.lines[0].support, 100U + copies);
+}
+
+TEST(PatternLines, CyclesAreGivenOrFollowTheFinitePoints) {
+  PointCloud cloud;
+  EXPECT_EQ(cycle_of({}, cloud), 5U);
+  cloud.positions.assign(400, {1, 2, 3});
+  EXPECT_EQ(cycle_of({}, cloud), 10U);
+  cloud.positions.insert(cloud.positions.end(), 1000, {nan, 0, 0});
+  EXPECT_EQ(cycle_of({}, cloud), 10U);
+  EXPECT_EQ(cycle_of(1, cloud), 1U);
+  EXPECT_THROW((void)cycle_of(0, cloud), InvalidArgument);
 }
 
 }  // namespace

@@ -1,12 +1,19 @@
 #include "keenline/lines/tracers.h"
 
+#include <cstdint>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
+#include "keenline/detect/registry.h"
 #include "keenline/errors.h"
+#include "keenline/neighborhood/spacing.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
+#include "support/motion.h"
 #include "support/traced_shapes.h"
 
 namespace keenline {
@@ -71,13 +78,110 @@ TEST(Tracers, EveryGraphIsValidWhateverWasLabelled) {
   }
 }
 
-TEST(Tracers, OfNoPointsDrawNothing) {
-  const PointCloud cloud;
+/// What the method says to whose lines the tracer belongs.
+FeatureLabels labels_for(const LineTracer& tracer, const PointCloud& cloud, const NeighborSearch& search) {
+  const Method& method = find_method(tracer.name == "walk" ? "gauss" : tracer.name);
+  OptionValues values = resolve_options(method, {});
+  method.adapt(values, 0, cloud.size());
+  return method.detect(cloud, search, values, no_progress());
+}
+
+FeatureGraph traced(const LineTracer& tracer, const PointCloud& cloud) {
   const NeighborSearch search(cloud.positions);
+  const FeatureLabels labels = labels_for(tracer, cloud, search);
+  return tracer.trace(cloud, search, labels, estimate_spacing(cloud, search), no_progress());
+}
+
+TEST(Tracers, SmoothSurfacesHaveNoLines) {
+  for (const char* const name : {"sphere", "torus"}) {
+    const PointCloud cloud = labelled_shape(name, 6000).synth.cloud;
+    for (const LineTracer& tracer : line_tracers()) {
+      const FeatureGraph graph = traced(tracer, cloud);
+      EXPECT_TRUE(graph.polylines.empty()) << tracer.name << ' ' << name;
+      EXPECT_TRUE(graph.corners.empty()) << tracer.name << ' ' << name;
+    }
+  }
+}
+
+TEST(Tracers, LinesMoveWithTheCloud) {
+  const LabelledShape cube = labelled_shape("cube", 6000);
+  const PointCloud moved = test::moved(cube.synth.cloud, 100, {4e6, -5e6, 3e6});
+  const NeighborSearch search(cube.synth.cloud.positions);
+  const NeighborSearch search_moved(moved.positions);
   for (const LineTracer& tracer : line_tracers()) {
-    const FeatureGraph graph = tracer.trace(cloud, search, {}, 1, no_progress());
-    EXPECT_TRUE(graph.polylines.empty()) << tracer.name;
-    EXPECT_TRUE(graph.corners.empty()) << tracer.name;
+    const FeatureLabels labels = labels_for(tracer, cube.synth.cloud, search);
+    const GraphCounts here =
+        counts_of(tracer.trace(cube.synth.cloud, search, labels, cube.spacing, no_progress()));
+    const GraphCounts there =
+        counts_of(tracer.trace(moved, search_moved, labels, 100 * cube.spacing, no_progress()));
+    EXPECT_EQ(there.corners, here.corners) << tracer.name;
+    EXPECT_EQ(there.polylines, here.polylines) << tracer.name;
+    EXPECT_NEAR(there.length, 100 * here.length, 0.005 * 100 * here.length) << tracer.name;
+  }
+}
+
+TEST(Tracers, DrawTheSameWithAnyNumberOfThreads) {
+  SynthOptions options;
+  options.shape = "fandisk";
+  options.points = 4000;
+  options.noise.amount = 0.05;
+  const PointCloud cloud = synthesize(options).cloud;
+  for (const LineTracer& tracer : line_tracers()) {
+    const FeatureGraph graph = traced(tracer, cloud);
+    EXPECT_FALSE(graph.polylines.empty());
+    for (const std::size_t threads : {1U, 4U}) {
+      const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+      const FeatureGraph again = traced(tracer, cloud);
+      ASSERT_EQ(again.polylines.size(), graph.polylines.size()) << tracer.name;
+      for (std::size_t i = 0; i < graph.polylines.size(); ++i) {
+        EXPECT_EQ(again.polylines[i].vertices, graph.polylines[i].vertices) << tracer.name;
+        EXPECT_EQ(again.polylines[i].support, graph.polylines[i].support) << tracer.name;
+      }
+    }
+  }
+}
+
+TEST(Tracers, WhereThereIsNothingToTraceTheyDrawNothing) {
+  PointCloud cloud;
+  const auto expect_nothing = [&](Kind kind, double spacing) {
+    FeatureLabels labels;
+    labels.kind.assign(cloud.size(), kind);
+    labels.score.assign(cloud.size(), 0);
+    const NeighborSearch search(cloud.positions);
+    for (const LineTracer& tracer : line_tracers()) {
+      const FeatureGraph graph = tracer.trace(cloud, search, labels, spacing, no_progress());
+      EXPECT_TRUE(graph.polylines.empty() && graph.corners.empty()) << tracer.name << ' ' << cloud.size();
+    }
+  };
+  expect_nothing(Kind::Edge, 1);
+  cloud.positions.assign(1, {1, 2, 3});
+  expect_nothing(Kind::Edge, 1);
+  cloud.positions.assign(200, {1, 2, 3});
+  expect_nothing(Kind::Edge, 1);
+  expect_nothing(Kind::Edge, 0);
+  cloud.positions.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  cloud.positions.push_back({1e300, 0, 0});
+  expect_nothing(Kind::Border, 1);
+  cloud = labelled_shape("cube", 1000).synth.cloud;
+  expect_nothing(Kind::Flat, 0.1);
+}
+
+TEST(Tracers, StopWheneverTheyAreTold) {
+  const LabelledShape cube = labelled_shape("cube", 1500);
+  const NeighborSearch search(cube.synth.cloud.positions);
+  // In one thread they ask as often every time.
+  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  for (const LineTracer& tracer : line_tracers()) {
+    const auto trace = [&](Progress& progress) {
+      (void)tracer.trace(cube.synth.cloud, search, cube.labels, cube.spacing, progress);
+    };
+    test::CancelledProgress never(std::numeric_limits<std::uint64_t>::max());
+    trace(never);
+    EXPECT_GT(never.asked(), 5U) << tracer.name;
+    for (const std::uint64_t at : test::some_up_to(never.asked())) {
+      test::CancelledProgress progress(at);
+      EXPECT_THROW(trace(progress), Cancelled) << tracer.name << ", " << at << " of " << never.asked();
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/nearest_by_force.h"
 #include "support/uneven_clouds.h"
 
@@ -114,6 +115,17 @@ TEST(NeighborSearch, VisitsEveryFinitePointOnceInTheSameBlocks) {
   }
 }
 
+TEST(NeighborSearch, OfPointsThatCoincideTheFirstIsKnown) {
+  using Numbers = std::vector<std::uint32_t>;
+  const std::vector<Point> some{{1, 0, 0},    {nan, 0, 0}, {0.0, 0, 0}, {1, 0, 0},
+                                {-0.0, 0, 0}, {nan, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(NeighborSearch(some).first_coincident(), (Numbers{0, 1, 2, 0, 2, 5, 0}));
+  const std::vector<Point> apart{{1, 0, 0}, {2, 0, 0}};
+  EXPECT_EQ(NeighborSearch(apart).first_coincident(), (Numbers{0, 1}));
+  const std::vector<Point> none;
+  EXPECT_EQ(NeighborSearch(none).first_coincident(), Numbers{});
+}
+
 class Counter : public Progress {
  public:
   void advance(std::uint64_t units) override { done += units; }
@@ -129,14 +141,9 @@ TEST(NeighborSearch, ReportsEachPointOnce) {
   EXPECT_EQ(progress.done, 5000U);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(NeighborSearch, CanBeCancelled) {
   const std::vector<Point> points = test::random_points(5000, 7);
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW(const NeighborSearch search(points, progress), Cancelled);
   const NeighborSearch search(points);
   EXPECT_THROW(search.for_each_block(

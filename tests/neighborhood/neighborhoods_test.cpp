@@ -11,6 +11,8 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
+
 namespace keenline {
 namespace {
 
@@ -159,13 +161,8 @@ TEST(Neighborhoods, RefuseCountsOutOfRange) {
   EXPECT_THROW((void)find_neighborhoods(cloud, 256), InvalidArgument);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Neighborhoods, CanBeCancelled) {
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)find_neighborhoods(random_cloud(100, 10), 16, progress), Cancelled);
 }
 

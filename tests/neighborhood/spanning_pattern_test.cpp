@@ -11,6 +11,8 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
+
 namespace keenline {
 namespace {
 
@@ -42,6 +44,14 @@ SpanningPattern comb(std::uint32_t last, const std::vector<std::pair<std::uint32
     }
   }
   return {next, edges, 100};
+}
+
+TEST(SpanningPattern, CyclesGrowWithTheRootOfTheCloud) {
+  EXPECT_EQ(shortest_cycle_for(0, 3), 3U);
+  EXPECT_EQ(shortest_cycle_for(100, 5), 5U);
+  EXPECT_EQ(shortest_cycle_for(12000, 5), 54U);
+  EXPECT_NO_THROW(require_cycle(1));
+  EXPECT_THROW(require_cycle(0), InvalidArgument);
 }
 
 TEST(SpanningPattern, ClosesCyclesThatAreLongEnough) {
@@ -184,13 +194,8 @@ TEST(SpanningPattern, NothingIsAPatternToo) {
   EXPECT_TRUE(SpanningPattern(7, {}, 5).chains().empty());
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(SpanningPattern, CanBeCancelled) {
-  EXPECT_THROW((void)SpanningPattern(5, ring(5), 3, Stopped()), Cancelled);
+  EXPECT_THROW((void)SpanningPattern(5, ring(5), 3, test::CancelledProgress()), Cancelled);
 }
 
 }  // namespace

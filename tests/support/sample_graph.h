@@ -37,10 +37,4 @@ std::string written(Writer write, const FeatureGraph& graph) {
   return sink.text;
 }
 
-/// Cancels at once.
-class CancelledProgress : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 }  // namespace keenline::test

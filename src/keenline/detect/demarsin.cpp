@@ -3,37 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/segments.h"
-#include "keenline/errors.h"
+#include "keenline/detect/span_space.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
 void require_usable(const DemarsinOptions& options) {
-  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
-    if (!ok) throw InvalidArgument(fmt::format("--{}: found {}, expected {}", name, found, expected));
-  };
-  const auto is_count = [](int count) { return count >= min_neighbors && count <= max_neighbors; };
-  require(is_count(options.normal_neighbors), "normal-neighbors", options.normal_neighbors, "3 to 255");
-  require(is_count(options.region_neighbors), "region-neighbors", options.region_neighbors, "3 to 255");
-  if (options.segment_angle_deg)
-    require(*options.segment_angle_deg >= 1 && *options.segment_angle_deg <= 45, "segment-angle",
-            *options.segment_angle_deg, "1 to 45 degrees");
-  require(options.min_patch >= 1, "min-patch", options.min_patch, "1 or more");
+  require_in_range("normal_neighbors", options.normal_neighbors, min_neighbors, max_neighbors);
+  require_in_range("region_neighbors", options.region_neighbors, min_neighbors, max_neighbors);
+  if (options.segment_angle_deg) require_in_range("segment_angle_deg", *options.segment_angle_deg, 1, 45);
+  require_in_range("min_patch", options.min_patch, 1, std::numeric_limits<double>::infinity());
 }
 
 /// What patches a point sees around it.
@@ -67,12 +61,10 @@ class View {
     return true;
   }
 
-  /// Normals along an edge between curved faces all lie in one plane, those at a corner do not.
   [[nodiscard]] bool span_space() const {
     kernels::Symmetric3 tensor;
-    for (const Point& d : directions_) kernels::add_outer_product(tensor, d[0], d[1], d[2]);
-    constexpr double smallest = 0.12;  // twice the squared sine of 14 degrees: two normals 28 degrees apart
-    return kernels::eigen_decomposition(tensor).values[2] > smallest;
+    for (const Point& direction : directions_) kernels::add_square(tensor, direction, 1);
+    return normals_span_space(tensor);
   }
 
   static constexpr std::size_t neighbors_at_corner = 28;  // three spacings
@@ -94,7 +86,9 @@ Kind kind_of(const Segments& segments, View& view, std::uint32_t point, const Ne
 FeatureLabels detect_demarsin(const PointCloud& cloud, const NeighborSearch& search,
                               const DemarsinOptions& options, Progress& progress) {
   require_usable(options);
-  constexpr std::uint64_t bytes_per_point = sizeof(Point) + sizeof(float) + 3 * sizeof(std::uint32_t);
+  // Normal, bend, label, the order and extent of regions; the table of neighbours.
+  const std::uint64_t bytes_per_point =
+      60 + sizeof(std::uint32_t) * static_cast<std::uint64_t>(options.region_neighbors);
   require_memory(cloud.size() * bytes_per_point, "segmentation by normals");
   progress.begin("demarsin", 3 * cloud.size());
   Segments segments = segment_by_normals(

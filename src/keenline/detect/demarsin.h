@@ -36,9 +36,9 @@ inline constexpr int demarsin_view = 50;
 /// The score is the largest angle between the normals of a point and its `region_neighbors`, in degrees.
 /// Paper: Demarsin, Vanderstraeten, Volodine, Roose, "Detection of closed sharp edges in point clouds using
 /// normal estimation and graph theory", 2007. Departures: see docs/methods/demarsin.md. Threads: any number,
-/// same bits. Cost: O(n k). Memory: 36 bytes a point and 4 for each of its
-/// region_neighbors. \pre the search is that of cloud.positions \throw
-/// InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
+/// same bits. Cost: O(n k). Memory: 60 bytes a point and 4 for each of its region_neighbors.
+/// \pre the search is that of cloud.positions
+/// \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
 [[nodiscard]] FeatureLabels detect_demarsin(const PointCloud& cloud, const NeighborSearch& search,
                                             const DemarsinOptions& options = {},
                                             Progress& progress = no_progress());

@@ -6,36 +6,31 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "keenline/cloud.h"
 #include "keenline/detect/pattern_penalties.h"
-#include "keenline/errors.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/neighborhood/spanning_pattern.h"
+#include "keenline/require.h"
 
 namespace keenline {
 namespace {
 
 void validate(const GumholdOptions& options) {
-  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
-    if (!ok) throw InvalidArgument(fmt::format("{}: found {}, expected {}", name, found, expected));
-  };
   require_neighbor_count(options.neighbors);
-  require(options.crease_limit >= 0 && options.crease_limit <= 2, "crease_limit", options.crease_limit,
-          "0 to 2");
-  require(options.border_gap_deg >= 0 && options.border_gap_deg <= 360, "border_gap_deg",
-          options.border_gap_deg, "0 to 360 degrees");
-  if (options.shortest_cycle)
-    require(*options.shortest_cycle >= 1, "shortest_cycle", *options.shortest_cycle, "1 or more");
+  require_in_range("crease_limit", options.crease_limit, 0, 2);
+  require_in_range("border_gap_deg", options.border_gap_deg, 0, 360);
+  if (options.shortest_cycle) require_cycle(*options.shortest_cycle);
 }
+
+/// Penalties, first of its place, two patterns with their working memory, label and score.
+constexpr std::uint64_t bytes_per_point =
+    sizeof(PointPenalties) + 2 * sizeof(std::uint32_t) + 2 * sizeof(std::vector<std::uint32_t>) + 6;
 
 class Detector {
  public:
@@ -45,7 +40,8 @@ class Detector {
         search_(search),
         options_(options),
         progress_(progress),
-        penalties_((require_memory(cloud.size() * sizeof(PointPenalties), "penalties"), cloud.size())) {}
+        first_(search.first_coincident()),
+        penalties_((require_memory(cloud.size() * bytes_per_point, "penalties"), cloud.size())) {}
 
   FeatureLabels run() {
     search_.for_each_block(
@@ -81,6 +77,9 @@ class Detector {
     return is_decided(i) && penalties_[i].gap_deg > options_.border_gap_deg;
   }
 
+  /// Points that coincide would each be connected with all that is near them: one of them is.
+  [[nodiscard]] bool stands_for_its_place(std::uint32_t i) const { return first_[i] == i; }
+
   void look_at(std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods) {
     progress_.check();
     LocalOffsets local;
@@ -115,9 +114,10 @@ class Detector {
           std::vector<WeightedEdge> found;
           LocalOffsets local;
           for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!stands_for_its_place(points[i])) continue;
             for (const std::uint32_t neighbor : neighborhoods.of(i)) {
               const auto [a, b] = std::minmax(points[i], neighbor);
-              if (!may(a, b)) continue;
+              if (!stands_for_its_place(neighbor) || !may(a, b)) continue;
               const Way way = way_between(positions_, penalties_, a, b, local);
               const double p = penalty(a, b, way);
               if (p < limit) found.push_back({a, b, p + way.relative_length});
@@ -138,14 +138,14 @@ class Detector {
     if (options_.shortest_cycle) return static_cast<std::size_t>(*options_.shortest_cycle);
     const auto points = std::count_if(penalties_.begin(), penalties_.end(),
                                       [](const PointPenalties& p) { return p.distance > 0; });
-    return std::max<std::size_t>(3, static_cast<std::size_t>(std::sqrt(static_cast<double>(points)) / 2));
+    return shortest_cycle_for(static_cast<std::size_t>(points), 3);
   }
 
   [[nodiscard]] FeatureLabels labels_of(const SpanningPattern& creases,
                                         const SpanningPattern& borders) const {
     FeatureLabels labels;
     for (std::uint32_t i = 0; i < size(); ++i) {
-      labels.kind.push_back(kind_of(i, creases.degree_of(i), borders.degree_of(i)));
+      labels.kind.push_back(kind_of(i, creases.degree_of(first_[i]), borders.degree_of(first_[i])));
       labels.score.push_back(is_decided(i) ? static_cast<float>(1 - crease_penalty(penalties_[i], rule_))
                                            : 0);
     }
@@ -164,6 +164,7 @@ class Detector {
   const NeighborSearch& search_;
   const GumholdOptions& options_;
   Progress& progress_;
+  std::vector<std::uint32_t> first_;  // at the place of each point
   std::vector<PointPenalties> penalties_;
   PenaltyRule rule_;
 };

@@ -35,8 +35,10 @@ struct GumholdOptions {
 ///
 /// The score is 1 minus the penalty of the point itself, 0 to 1. Paper: Gumhold, Wang, MacLeod 2001, "Feature
 /// Extraction from Point Clouds". Departures: see docs/methods/gumhold.md. Threads: any number, same bits.
-/// Cost: O(n neighbors), and O(m log m) on one thread for the m edges below the limit. Memory: 80 bytes per
-/// point, 16 for each of those edges. \pre search is in the cloud's positions
+/// Cost: O(n neighbors); on one thread O(m log m) for the m edges below the limit, and for each of them that
+/// would close a cycle a search of the pattern so far, up to shortest_cycle edges far. Memory: 140 bytes per
+/// point, 16 to 48 for each of those edges, which are not known before: they are not asked for.
+/// \pre search is in the cloud's positions
 /// \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
 [[nodiscard]] FeatureLabels detect_gumhold(const PointCloud& cloud, const NeighborSearch& search,
                                            const GumholdOptions& options = {},

@@ -34,10 +34,10 @@ inline constexpr std::size_t neighbors_that_support = 16;
 /// them becomes flat. Of two points on a crease only those count that continue it: the way from one to the
 /// other is within 35 degrees of the directions of both, as far as they are known; corners have none. For
 /// every sensitivity at once, so that the labels of the result at one of them are those that filtering at
-/// that sensitivity would give. Neighbours count as they were before the filter; those of
-/// points that never need support may be left out. Threads: any number, same
-/// result. Cost: O(sharp points). \pre neighborhoods.size() == spectrum.size() == directions.size() ==
-/// positions.size() \throw Cancelled
+/// that sensitivity would give. Neighbours count as they were before the filter; those of points that never
+/// need support may be left out. Threads: any number, same result. Cost: O(sharp points).
+/// \pre neighborhoods.size() == spectrum.size() == directions.size() == positions.size()
+/// \throw Cancelled
 [[nodiscard]] LabelSpectrum without_isolated(const LabelSpectrum& spectrum,
                                              const Neighborhoods& neighborhoods,
                                              const std::vector<Point>& positions,

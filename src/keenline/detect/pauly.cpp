@@ -5,20 +5,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/local_pca.h"
-#include "keenline/errors.h"
 #include "keenline/kernels/portable_math.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -35,24 +35,16 @@ constexpr int graph_neighbors = 16;
 constexpr std::size_t gap_neighbors = 24;
 
 void validate(const PaulyOptions& options) {
-  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
-    if (!ok) throw InvalidArgument(fmt::format("{}: found {}, expected {}", name, found, expected));
-  };
-  const auto is_count = [](int count) { return count >= min_neighbors && count <= max_neighbors; };
-  require(is_count(options.smallest_scale), "smallest_scale", options.smallest_scale, "3 to 255");
-  require(is_count(options.largest_scale) && options.largest_scale >= options.smallest_scale, "largest_scale",
-          options.largest_scale, "smallest_scale to 255");
-  require(options.scale_step >= 1 && options.scale_step <= max_neighbors, "scale_step", options.scale_step,
-          "1 to 255");
+  require_in_range("smallest_scale", options.smallest_scale, min_neighbors, max_neighbors);
+  require_in_range("largest_scale", options.largest_scale, options.smallest_scale, max_neighbors);
+  require_in_range("scale_step", options.scale_step, 1, max_neighbors);
   if (options.variation)
-    require(*options.variation > 0 && *options.variation <= 1.0 / 3, "variation", *options.variation,
-            "more than 0, up to 1/3");
-  require(options.seed_share >= 0 && options.seed_share <= 1, "seed_share", options.seed_share, "0 to 1");
-  require(options.grow_share >= 0 && options.grow_share <= options.seed_share, "grow_share",
-          options.grow_share, "0 to seed_share");
-  require(options.turn_deg >= 0 && options.turn_deg <= 90, "turn_deg", options.turn_deg, "0 to 90 degrees");
-  require(options.border_gap_deg >= 0 && options.border_gap_deg <= 360, "border_gap_deg",
-          options.border_gap_deg, "0 to 360 degrees");
+    require_option(*options.variation > 0 && *options.variation <= 1.0 / 3, "variation", *options.variation,
+                   "more than 0, up to 1/3");
+  require_in_range("seed_share", options.seed_share, 0, 1);
+  require_in_range("grow_share", options.grow_share, 0, options.seed_share);
+  require_in_range("turn_deg", options.turn_deg, 0, 90);
+  require_in_range("border_gap_deg", options.border_gap_deg, 0, 360);
 }
 
 /// By how much a neighbourhood varies as no two half planes that meet at its middle do. Those have, against
@@ -111,7 +103,12 @@ class Detector {
     const std::vector<bool> feature = grow(limit);
     FeatureLabels labels;
     labels.kind.resize(size());
-    for (std::uint32_t i = 0; i < size(); ++i) labels.kind[i] = kind_of(i, feature);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size(), 1024),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        progress_.check();
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          labels.kind[i] = kind_of(static_cast<std::uint32_t>(i), feature);
+                      });
     labels.score = std::move(mean_);
     labels.threshold = limit;
     return labels;

@@ -6,6 +6,7 @@
 #include "keenline/cloud.h"
 #include "keenline/detect/crease.h"
 #include "keenline/detect/peak.h"
+#include "keenline/detect/span_space.h"
 #include "keenline/kernels/line_angles.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/vectors.h"
@@ -24,13 +25,10 @@ std::uint16_t sensitivity_reaching(double height) {
   return static_cast<std::uint16_t>(std::ceil(std::min(height, double{kernels::right_angle})));
 }
 
-/// The normals along an edge between curved faces all lie in one plane, those at a corner do not.
 bool span_space(std::span<const Face> faces) {
   kernels::Symmetric3 tensor;
-  for (const Face& face : faces)
-    kernels::add_outer_product(tensor, face.normal[0], face.normal[1], face.normal[2]);
-  constexpr double smallest = 0.12;  // twice the squared sine of 14 degrees: two normals 28 degrees apart
-  return kernels::eigen_decomposition(tensor).values[2] > smallest;
+  for (const Face& face : faces) kernels::add_square(tensor, face.normal, 1);
+  return normals_span_space(tensor);
 }
 
 }  // namespace

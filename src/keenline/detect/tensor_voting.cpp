@@ -3,32 +3,26 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/threshold.h"
 #include "keenline/detect/voters.h"
-#include "keenline/errors.h"
 #include "keenline/kernels/tensor_votes.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/require.h"
 
 namespace keenline {
 namespace {
 
 void require_usable(const TensorVotingOptions& options) {
-  const auto require = [](double value, double least, double most, std::string_view name) {
-    if (!(value >= least && value <= most))
-      throw InvalidArgument(fmt::format("--{}: found {}, expected {} to {}", name, value, least, most));
-  };
-  require(options.voting_scale, 1, largest_voting_scale, "voting-scale");
-  require(options.curvature_weight, 0, 100, "curvature-weight");
-  if (options.min_curve) require(*options.min_curve, 0, 1, "min-curve");
-  require(options.min_junction, 0, 1, "min-junction");
+  require_in_range("voting_scale", options.voting_scale, 1, largest_voting_scale);
+  require_in_range("curvature_weight", options.curvature_weight, 0, 100);
+  if (options.min_curve) require_in_range("min_curve", *options.min_curve, 0, 1);
+  require_in_range("min_junction", options.min_junction, 0, 1);
 }
 
 /// What was voted at a point.

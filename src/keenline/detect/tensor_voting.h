@@ -34,8 +34,9 @@ struct TensorVotingOptions {
 /// The score is the curve saliency. Papers: Guy, Medioni, "Inference of Surfaces, 3D Curves, and Junctions
 /// from Sparse, Noisy, 3D Data", 1997; closed form of ball votes after Wu et al., "A Closed-Form Solution to
 /// Tensor Voting", 2012. Departures: see docs/methods/tensor_voting.md. Threads: any number, same bits. Cost:
-/// O(n k), k = voters_within(voting_scale). Memory: 64 bytes a point. \pre the search is that of
-/// cloud.positions \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
+/// O(n k), k = voters_within(voting_scale). Memory: 64 bytes a point.
+/// \pre the search is that of cloud.positions
+/// \throw InvalidArgument when an option is out of range; OutOfMemory; Cancelled.
 [[nodiscard]] FeatureLabels detect_tensor_voting(const PointCloud& cloud, const NeighborSearch& search,
                                                  const TensorVotingOptions& options = {},
                                                  Progress& progress = no_progress());

@@ -6,6 +6,7 @@
 #include "keenline/kernels/portable_math.h"
 #include "keenline/kernels/tensor_votes.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/neighborhood/spacing.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -30,11 +31,9 @@ bool Voters::gather(const std::vector<Point>& positions, std::size_t point,
   offsets_.clear();
   if (neighbors.size() < fewest_voters || !local_.gather(positions, point, neighbors)) return false;
   const auto offsets = local_.offsets();
-  // The disc out to the last of m neighbours holds m points and half of the one on its rim: its area gives h.
-  const double squared_radius = dot(offsets.back(), offsets.back());
-  const double squared_spacing = squared_radius * (kernels::pi / (static_cast<double>(offsets.size()) + 0.5));
-  if (!(squared_spacing > smallest_square)) return false;
-  const double per_sigma = -1 / (sigma * std::sqrt(squared_spacing));
+  const double spacing = spacing_within(offsets.back(), offsets.size());
+  if (!(spacing * spacing > smallest_square)) return false;
+  const double per_sigma = -1 / (sigma * spacing);
   for (const Point& offset : offsets) offsets_.push_back(scaled(per_sigma, offset));
   return true;
 }

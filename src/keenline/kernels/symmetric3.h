@@ -9,14 +9,20 @@ struct Symmetric3 {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 };
 
+/// matrix += weight v vᵀ
+inline void add_square(Symmetric3& matrix, const std::array<double, 3>& v, double weight) {
+  const std::array<double, 3> w{weight * v[0], weight * v[1], weight * v[2]};
+  matrix.xx += w[0] * v[0];
+  matrix.xy += w[0] * v[1];
+  matrix.xz += w[0] * v[2];
+  matrix.yy += w[1] * v[1];
+  matrix.yz += w[1] * v[2];
+  matrix.zz += w[2] * v[2];
+}
+
 /// matrix += v vᵀ for v = (x, y, z)
 inline void add_outer_product(Symmetric3& matrix, double x, double y, double z) {
-  matrix.xx += x * x;
-  matrix.xy += x * y;
-  matrix.xz += x * z;
-  matrix.yy += y * y;
-  matrix.yz += y * z;
-  matrix.zz += z * z;
+  add_square(matrix, {x, y, z}, 1);
 }
 
 /// Eigenvalues in falling order, each with a unit eigenvector.

@@ -9,18 +9,16 @@
 namespace keenline::kernels {
 namespace {
 
-void add_scaled(Symmetric3& sum, const Symmetric3& m, double s) {
-  sum.xx += s * m.xx;
-  sum.xy += s * m.xy;
-  sum.xz += s * m.xz;
-  sum.yy += s * m.yy;
-  sum.yz += s * m.yz;
-  sum.zz += s * m.zz;
-}
-
-/// sum += s v vᵀ
-void add_square(Symmetric3& sum, const Point& v, double s) {
-  add_scaled(sum, {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[1] * v[1], v[1] * v[2], v[2] * v[2]}, s);
+/// tensor += strength v vᵀ
+void add_vote(Symmetric3& tensor, const Point& v, double strength) {
+  Symmetric3 square;
+  add_square(square, v, 1);
+  tensor.xx += strength * square.xx;
+  tensor.xy += strength * square.xy;
+  tensor.xz += strength * square.xz;
+  tensor.yy += strength * square.yy;
+  tensor.yz += strength * square.yz;
+  tensor.zz += strength * square.zz;
 }
 
 void add_identity(Symmetric3& sum, double s) {
@@ -54,29 +52,14 @@ void add_stick_vote(Symmetric3& tensor, const Point& normal, const Point& offset
   const double squared_arc = square * arc_per_chord * arc_per_chord;
   const double squared_curvature = 4 * squared_sine / square;
   const double fade = exp_of_negative(-(squared_arc + curvature_weight * squared_curvature));
-  add_square(tensor, mirrored(normal, offset, square), weight * fade);
-}
-
-void add_plate_vote(Symmetric3& tensor, const Point& tangent, const Point& offset, double weight) {
-  // With r the unit offset, R = I - 2 r rᵀ, P = I - t tᵀ and a = P r: R (P - (|a|² P + 2 a aᵀ) / 4) R.
-  // R P R = I - (R t)(R t)ᵀ.
-  const double square = dot(offset, offset);
-  const double along = dot(tangent, offset);
-  const Point a = scaled(1 / std::sqrt(square), difference(offset, scaled(along, tangent)));
-  const Point mirrored_tangent = mirrored(tangent, offset, square);
-  const Point mirrored_a = mirrored(a, offset, square);
-  const double strength = weight * exp_of_negative(-square);
-  const double kept = strength * (1 - 0.25 * dot(a, a));
-  add_identity(tensor, kept);
-  add_square(tensor, mirrored_tangent, -kept);
-  add_square(tensor, mirrored_a, -0.5 * strength);
+  add_vote(tensor, mirrored(normal, offset, square), weight * fade);
 }
 
 void add_ball_vote(Symmetric3& tensor, const Point& offset, double weight) {
   const double square = dot(offset, offset);
   const double strength = 0.8 * weight * exp_of_negative(-square);
   add_identity(tensor, strength);
-  add_square(tensor, offset, -0.5 * strength / square);
+  add_vote(tensor, offset, -0.5 * strength / square);
 }
 
 Saliency saliency_of(const Eigen3& tensor) {

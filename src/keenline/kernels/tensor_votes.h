@@ -16,13 +16,9 @@ namespace keenline::kernels {
 void add_stick_vote(Symmetric3& tensor, const Point& normal, const Point& offset, double curvature_weight,
                     double weight = 1);
 
-/// Adds the vote of a piece of curve with this unit tangent: twice the mean vote of its normals. In closed
-/// form, for votes that fade as exp(-l²) cos² of the angle off the tangent plane, l the distance
-/// (Wu et al. 2012, "A Closed-Form Solution to Tensor Voting", whose product is not symmetric; this is the
-/// integral).
-void add_plate_vote(Symmetric3& tensor, const Point& tangent, const Point& offset, double weight = 1);
-
-/// Adds the vote of a bare point: three times the mean over all normals, fading as for a plate.
+/// Adds the vote of a bare point: three times the mean over all normals of stick votes that fade as exp(-l²)
+/// cos² of the angle off the tangent plane, l the distance, in closed form (Wu et al. 2012, "A Closed-Form
+/// Solution to Tensor Voting").
 void add_ball_vote(Symmetric3& tensor, const Point& offset, double weight = 1);
 
 /// How much a tensor says of a surface, a curve and a junction, as shares of its largest eigenvalue that add

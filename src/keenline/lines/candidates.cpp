@@ -1,7 +1,7 @@
 #include "keenline/lines/candidates.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -10,8 +10,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/errors.h"
-#include "keenline/feature_graph.h"
 #include "keenline/kernels/symmetric3.h"
+#include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/vectors.h"
 
@@ -48,39 +48,36 @@ Point drawn_together(const std::vector<Point>& positions, std::size_t own,
 }  // namespace
 
 Candidates::Candidates(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
-                       double spacing, const Progress& progress)
-    : spacing_(spacing) {
+                       double spacing, const Progress& progress) {
   if (labels.size() != cloud.size())
     throw InvalidArgument(fmt::format("{} labels for {} points", labels.size(), cloud.size()));
-  if (!(spacing > 0) || std::isinf(spacing)) return;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!is_candidate(labels.kind[i]) || !is_drawable(cloud.positions[i])) continue;
-    if (points_.empty()) origin_ = cloud.positions[i];
-    const Point offset = difference(cloud.positions[i], origin_);
-    const Point position{offset[0] / spacing, offset[1] / spacing, offset[2] / spacing};
-    if (!is_finite(position)) continue;
-    points_.push_back(static_cast<std::uint32_t>(i));
-    positions_.push_back(position);
-  }
+  std::vector<bool> is_chosen(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) is_chosen[i] = is_candidate(labels.kind[i]);
+  placed_ = place_points(cloud, search, is_chosen, spacing);
+  const std::vector<std::uint32_t>& points = placed_.points;
+  // Both copies of the lists, for as long as it takes to put the one together.
+  constexpr std::uint64_t bytes_per_candidate = 2 * neighbors_near * sizeof(std::uint32_t) + 80;
+  require_memory(size() * bytes_per_candidate, "candidates of lines");
   std::vector<std::vector<std::uint32_t>> near(size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size(), 64),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       progress.check();
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        for (const std::uint32_t point : search.nearest(points_[i], neighbors_near)) {
-                          const auto place = std::lower_bound(points_.begin(), points_.end(), point);
-                          if (place != points_.end() && *place == point)
-                            near[i].push_back(static_cast<std::uint32_t>(place - points_.begin()));
+                        for (const std::uint32_t point : search.nearest(points[i], neighbors_near)) {
+                          const auto place = std::lower_bound(points.begin(), points.end(), point);
+                          if (place != points.end() && *place == point)
+                            near[i].push_back(static_cast<std::uint32_t>(place - points.begin()));
                         }
                       }
                     });
+  near_.reserve(std::transform_reduce(near.begin(), near.end(), std::size_t{0}, std::plus<>(),
+                                      [](const auto& list) { return list.size(); }));
+  offsets_.reserve(size() + 1);
   for (const auto& list : near) {
     near_.insert(near_.end(), list.begin(), list.end());
     offsets_.push_back(near_.size());
   }
 }
-
-Point Candidates::in_cloud(const Point& position) const { return sum(origin_, scaled(spacing_, position)); }
 
 std::vector<Point> contracted(const Candidates& candidates, double radius, int rounds) {
   std::vector<Point> positions = candidates.positions();
@@ -111,14 +108,16 @@ CandidateClusters cluster(const Candidates& candidates, std::span<const Point> p
     result.cluster[seed] = name;
     Point total = positions[seed];
     std::uint32_t count = 1;
+    std::uint32_t size = candidates.copies()[seed];
     for (const std::uint32_t other : candidates.near(seed)) {
       if (result.cluster[other] != none || distance(positions[seed], positions[other]) > radius) continue;
       result.cluster[other] = name;
       total = sum(total, positions[other]);
       ++count;
+      size += candidates.copies()[other];
     }
     result.centroids.push_back(scaled(1.0 / count, total));
-    result.sizes.push_back(count);
+    result.sizes.push_back(size);
   }
   return result;
 }

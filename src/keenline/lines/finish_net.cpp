@@ -23,14 +23,14 @@ struct Pair {
 };
 
 /// Connects open ends with each other, nearest pairs first, until nothing is left to connect.
-bool close_between_ends(LineNet& net, double reach, double ratio) {
+bool close_between_ends(LineNet& net, double reach, double ratio, const Progress& progress) {
   const std::vector<std::uint32_t> ends = net.ends();
   if (ends.size() < 2) return false;
   constexpr int others_looked_at = 5;
   std::vector<Point> positions;
   positions.reserve(ends.size());
   for (const std::uint32_t end : ends) positions.push_back(net.position_of(end));
-  const NeighborSearch search(positions);
+  const NeighborSearch search(positions, progress);
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < ends.size(); ++i) {
     for (const std::uint32_t j : search.nearest(i, others_looked_at)) {
@@ -41,6 +41,7 @@ bool close_between_ends(LineNet& net, double reach, double ratio) {
   std::sort(pairs.begin(), pairs.end());
   bool any = false;
   for (const Pair& pair : pairs) {
+    progress.check();
     if (net.degree_of(pair.a) != 1 || net.degree_of(pair.b) != 1) continue;
     const double longest = ratio * pair.apart;
     if (net.way_between(pair.a, pair.b, longest) < longest) continue;
@@ -51,7 +52,7 @@ bool close_between_ends(LineNet& net, double reach, double ratio) {
 }
 
 /// Connects every end that is left to the nearest node that is far along the lines.
-void close_to_nodes(LineNet& net, double reach, double ratio) {
+void close_to_nodes(LineNet& net, double reach, double ratio, const Progress& progress) {
   std::vector<Point> positions;
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t node = 0; node < net.size(); ++node) {
@@ -60,12 +61,13 @@ void close_to_nodes(LineNet& net, double reach, double ratio) {
     positions.push_back(net.position_of(node));
   }
   if (nodes.empty()) return;
-  const NeighborSearch search(positions);
+  const NeighborSearch search(positions, progress);
   constexpr int nodes_looked_at = 64;
   constexpr double shortest_loop = 12;
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const std::uint32_t end = nodes[i];
     if (net.degree_of(end) != 1) continue;
+    progress.check();
     for (const std::uint32_t j : search.nearest(i, nodes_looked_at)) {
       const double apart = distance(positions[i], positions[j]);
       if (apart > reach) break;
@@ -80,13 +82,14 @@ void close_to_nodes(LineNet& net, double reach, double ratio) {
 }  // namespace
 
 void close_ends(LineNet& net, double reach, double ratio, const Progress& progress) {
-  while (close_between_ends(net, reach, ratio)) progress.check();
-  close_to_nodes(net, reach, ratio);
+  while (close_between_ends(net, reach, ratio, progress)) progress.check();
+  close_to_nodes(net, reach, ratio, progress);
 }
 
-void smooth(LineNet& net, int rounds) {
+void smooth(LineNet& net, int rounds, const Progress& progress) {
   std::vector<Point> next(net.size());
   for (int step = 0; step < 2 * rounds; ++step) {
+    progress.check();
     const double pace = step % 2 == 0 ? 0.5 : -0.53;
     for (std::uint32_t node = 0; node < net.size(); ++node) {
       next[node] = net.position_of(node);

@@ -18,8 +18,8 @@ void close_ends(LineNet& net, double reach, double ratio, const Progress& progre
 
 /// Moves what lies between ends and junctions towards the middle of its neighbours, and every other time back
 /// by a little more: Taubin 1995, "A signal processing approach to fair surface design". Waves flatten, arcs
-/// keep their radius.
-void smooth(LineNet& net, int rounds);
+/// keep their radius. \throw Cancelled
+void smooth(LineNet& net, int rounds, const Progress& progress);
 
 /// The net as a drawing in the cloud's coordinates, corners where three or more lines meet. `support` says of
 /// every node how many points back it.

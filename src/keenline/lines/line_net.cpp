@@ -4,9 +4,9 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <queue>
 
+#include "keenline/neighborhood/disjoint_sets.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -40,25 +40,6 @@ std::map<std::uint32_t, Reached> reachable(const LineNet& net, std::uint32_t sta
   }
   return reached;
 }
-
-/// Sets of nodes that grow together.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  [[nodiscard]] std::uint32_t find(std::uint32_t node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 }  // namespace
 
@@ -164,7 +145,7 @@ void LineNet::merge_junctions(double distance) {
   std::vector<std::uint32_t> junctions;
   for (std::uint32_t node = 0; node < size(); ++node)
     if (degree_of(node) > 2) junctions.push_back(node);
-  Sets sets(size());
+  DisjointSets sets(size());
   for (const std::uint32_t junction : junctions) {
     const auto reached = reachable(*this, junction, 2 * distance);
     for (const auto& [node, r] : reached) {

@@ -1,9 +1,7 @@
 #include "keenline/lines/pattern_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +9,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/errors.h"
+#include "keenline/neighborhood/disjoint_sets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/vectors.h"
 
@@ -71,7 +70,6 @@ class Corners {
   Corners(const SpanningPattern& pattern, const std::vector<PatternChain>& chains,
           const std::vector<Point>& positions)
       : same_(pattern.size()), number_(pattern.size(), none) {
-    std::iota(same_.begin(), same_.end(), 0U);
     for (const PatternChain& chain : chains) {
       const std::uint32_t a = chain.nodes.front();
       const std::uint32_t b = chain.nodes.back();
@@ -79,12 +77,12 @@ class Corners {
       double length = 0;
       for (std::size_t i = 1; i < chain.nodes.size(); ++i)
         length += distance(positions[chain.nodes[i - 1]], positions[chain.nodes[i]]);
-      if (length < one_corner_within) same_[std::max(find(a), find(b))] = std::min(find(a), find(b));
+      if (length < one_corner_within) same_.join(a, b);
     }
     std::vector<double> members;
     for (std::uint32_t node = 0; node < pattern.size(); ++node) {
       if (pattern.degree_of(node) < 3) continue;
-      const std::uint32_t first = find(node);
+      const std::uint32_t first = same_.find(node);
       if (first == node) {
         number_[node] = static_cast<std::uint32_t>(middles_.size());
         middles_.push_back({});
@@ -103,12 +101,7 @@ class Corners {
   }
 
  private:
-  std::uint32_t find(std::uint32_t node) {
-    while (same_[node] != node) node = same_[node] = same_[same_[node]];
-    return node;
-  }
-
-  std::vector<std::uint32_t> same_;
+  DisjointSets same_;
   std::vector<std::uint32_t> number_;  // of the corner that a junction belongs to
   std::vector<Point> middles_;
 };
@@ -141,8 +134,8 @@ void count_support(PatternLines& lines, const std::vector<std::uint32_t>& line_a
     offer(edge.a, edge.b, edge.weight);
     offer(edge.b, edge.a, edge.weight);
   }
-  for (const std::uint32_t line : nearest)
-    if (line != none) ++lines.lines[line].support;
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+    if (nearest[i] != none) lines.lines[nearest[i]].support += points.copies[i];
 }
 
 }  // namespace
@@ -151,26 +144,16 @@ LinePoints line_points(const PointCloud& cloud, const NeighborSearch& search, co
                        double spacing, LineKind kind, const Progress& progress) {
   if (labels.size() != cloud.size())
     throw InvalidArgument(fmt::format("{} labels for {} points", labels.size(), cloud.size()));
-  LinePoints result;
-  if (!(spacing > 0) || std::isinf(spacing)) return result;
-  result.frame.spacing = spacing;
   const std::vector<bool> is_member = members_of(cloud, search, labels, kind, progress);
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const Point& p = cloud.positions[i];
-    if (!is_member[i] || !is_drawable(p)) continue;
-    if (result.points.empty()) result.frame.origin = p;
-    const Point position = result.frame.local(p);
-    if (!is_drawable(position)) continue;
-    result.points.push_back(i);
-    result.positions.push_back(position);
-  }
+  LinePoints result{place_points(cloud, search, is_member, spacing), {}};
   result.edges = edges_between(result.positions, progress);
   return result;
 }
 
-std::size_t shortest_cycle_for(std::size_t points_of_cloud) {
-  return std::max<std::size_t>(5,
-                               static_cast<std::size_t>(std::sqrt(static_cast<double>(points_of_cloud)) / 2));
+std::size_t cycle_of(std::optional<int> given, const PointCloud& cloud) {
+  if (!given) return shortest_cycle_for(count_finite(cloud), 5);
+  require_cycle(*given);
+  return static_cast<std::size_t>(*given);
 }
 
 SpanningPattern clean_pattern(const LinePoints& points, std::vector<WeightedEdge> edges, std::size_t cycle,

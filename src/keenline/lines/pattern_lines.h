@@ -7,7 +7,7 @@
 #include "keenline/cloud.h"
 #include "keenline/feature_graph.h"
 #include "keenline/labels.h"
-#include "keenline/lines/foot.h"
+#include "keenline/lines/placed_points.h"
 #include "keenline/neighborhood/spanning_pattern.h"
 #include "keenline/progress.h"
 
@@ -16,25 +16,22 @@ namespace keenline {
 class NeighborSearch;
 
 /// The points that lines of a kind may run through, and the graph that a pattern of them is taken from.
-struct LinePoints {
-  TraceFrame frame;
-  std::vector<std::uint32_t> points;  ///< their indices in the cloud, rising
-  std::vector<Point> positions;       ///< in the frame
+struct LinePoints : PlacedPoints {
   /// Each with its 12 nearest others up to 3 spacings away, by places in `points`; every edge once. The
   /// weight is the length in spacings.
   std::vector<WeightedEdge> edges;
 };
 
 /// Edges and corners for creases, borders for borders, each with its 16 nearest points of the cloud,
-/// which bridge the gaps of thin labels; without points that a graph cannot hold, and none where the spacing
-/// is not a positive number. Threads: any number, same result.
+/// which bridge the gaps of thin labels; see place_points(). Threads: any number, same result.
 /// \throw InvalidArgument unless labels.size() == cloud.size(); OutOfMemory; Cancelled.
 [[nodiscard]] LinePoints line_points(const PointCloud& cloud, const NeighborSearch& search,
                                      const FeatureLabels& labels, double spacing, LineKind kind,
                                      const Progress& progress);
 
-/// Half the square root of the number of points: how many edges the papers ask of a cycle. At least 5.
-[[nodiscard]] std::size_t shortest_cycle_for(std::size_t points_of_cloud);
+/// `given`, or half the square root of the number of finite points, at least 5.
+/// \throw InvalidArgument unless `given` is 1 or more
+[[nodiscard]] std::size_t cycle_of(std::optional<int> given, const PointCloud& cloud);
 
 /// The pattern of the points by these weights, one for every edge, cleaned as the papers have it: components
 /// with fewer nodes than `cycle` edges dropped, branches with less than half as many edges cut.

@@ -96,7 +96,8 @@ std::vector<T> interpolated(const std::vector<T>& values, const ArcLength& arc,
   return result;
 }
 
-Polyline resampled(const Polyline& line, double step) {
+Polyline resampled(const Polyline& line, double step, const Progress& progress) {
+  progress.check();
   const ArcLength arc(line);
   const std::vector<double> places = places_along(line, arc, step);
   Polyline result = line;
@@ -114,12 +115,12 @@ Polyline resampled(const Polyline& line, double step) {
 
 }  // namespace
 
-FeatureGraph resample_lines(const FeatureGraph& graph, double step) {
+FeatureGraph resample_lines(const FeatureGraph& graph, double step, const Progress& progress) {
   validate(graph);
   if (!(step > 0 && std::isfinite(step)))
     throw InvalidArgument(fmt::format("step: found {}, expected a number above 0", step));
   FeatureGraph result = graph;
-  for (Polyline& line : result.polylines) line = resampled(line, step);
+  for (Polyline& line : result.polylines) line = resampled(line, step, progress);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "keenline/feature_graph.h"
+#include "keenline/progress.h"
 
 namespace keenline {
 
@@ -13,7 +14,8 @@ namespace keenline {
 /// Cost: O(old and new vertices).
 /// \param step more than 0, in the unit of the graph
 /// \throw InvalidArgument for an invalid graph or a step out of range; OutOfMemory for a step so small that
-/// a line would have more than max_points vertices.
-[[nodiscard]] FeatureGraph resample_lines(const FeatureGraph& graph, double step);
+/// a line would have more than max_points vertices; Cancelled.
+[[nodiscard]] FeatureGraph resample_lines(const FeatureGraph& graph, double step,
+                                          const Progress& progress = no_progress());
 
 }  // namespace keenline

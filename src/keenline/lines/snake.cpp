@@ -3,25 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 
-#include <fmt/format.h>
-
-#include "keenline/errors.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
 void validate(const SnakeOptions& options) {
-  const auto require = [](double value, double most, std::string_view name) {
-    if (!(value >= 0 && value <= most))
-      throw InvalidArgument(fmt::format("{}: found {}, expected 0 to {}", name, value, most));
-  };
-  require(options.tension, 1, "tension");
-  require(options.stiffness, 1, "stiffness");
-  require(options.pull, 10, "pull");
-  require(options.duration, 1000, "duration");
+  require_in_range("tension", options.tension, 0, 1);
+  require_in_range("stiffness", options.stiffness, 0, 1);
+  require_in_range("pull", options.pull, 0, 10);
+  require_in_range("duration", options.duration, 0, 1000);
 }
 
 /// Minus the gradient of the energy of the curve itself.

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "keenline/errors.h"
 #include "keenline/lines/candidates.h"
 #include "keenline/lines/finish_net.h"
 #include "keenline/lines/line_net.h"
+#include "keenline/neighborhood/disjoint_sets.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -24,15 +21,11 @@ constexpr int extra_edges = 6;
 constexpr double junction_size = 3;  // junctions closer than the bands that meet in them are wide are one
 
 void require_usable(const TraceDemarsinOptions& options) {
-  const auto require = [](double value, double least, double most, std::string_view name) {
-    if (!(value >= least && value <= most))
-      throw InvalidArgument(fmt::format("{}: found {}, expected {} to {}", name, value, least, most));
-  };
-  require(options.extra_reach, 0, 100, "extra_reach");
-  require(options.close_reach, 0, 100, "close_reach");
-  require(options.close_ratio, 1, 100, "close_ratio");
-  require(options.min_branch, 0, 1000, "min_branch");
-  require(options.smooth_rounds, 0, 1000, "smooth_rounds");
+  require_in_range("extra_reach", options.extra_reach, 0, 100);
+  require_in_range("close_reach", options.close_reach, 0, 100);
+  require_in_range("close_ratio", options.close_ratio, 1, 100);
+  require_in_range("min_branch", options.min_branch, 0, 1000);
+  require_in_range("smooth_rounds", options.smooth_rounds, 0, 1000);
 }
 
 CandidateClusters clusters_of(const Candidates& candidates, const FeatureLabels& labels) {
@@ -82,20 +75,10 @@ std::vector<Edge> extended_graph(const Candidates& candidates, const CandidateCl
 
 /// Kruskal's algorithm.
 LineNet spanning_forest(const std::vector<Point>& nodes, const std::vector<Edge>& edges) {
-  std::vector<std::uint32_t> parent(nodes.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root_of = [&](std::uint32_t node) {
-    while (parent[node] != node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
+  DisjointSets parts(nodes.size());
   LineNet net(nodes);
-  for (const Edge& edge : edges) {
-    const std::uint32_t a = root_of(edge.a);
-    const std::uint32_t b = root_of(edge.b);
-    if (a == b) continue;
-    parent[std::max(a, b)] = std::min(a, b);
-    net.connect(edge.a, edge.b);
-  }
+  for (const Edge& edge : edges)
+    if (parts.join(edge.a, edge.b)) net.connect(edge.a, edge.b);
   return net;
 }
 
@@ -127,7 +110,7 @@ FeatureGraph trace_demarsin(const PointCloud& cloud, const NeighborSearch& searc
   close_ends(net, options.close_reach, options.close_ratio, progress);
   net.drop_parts_below(options.min_branch);
   clean_up(net, options);
-  smooth(net, options.smooth_rounds);
+  smooth(net, options.smooth_rounds, progress);
   return graph_of(net, candidates, clusters.sizes);
 }
 

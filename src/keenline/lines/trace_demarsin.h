@@ -30,8 +30,10 @@ struct TraceDemarsinOptions {
 /// normal estimation and graph theory", 2007, section 4. Departures: see docs/methods/demarsin.md.
 /// \param spacing of the cloud, see estimate_spacing(); nothing is traced unless it is more than 0
 /// \pre search is in the cloud's positions
-/// \throw InvalidArgument when an option is out of range or labels are not those of the cloud; Cancelled.
-/// Threads: any number, same bits. Cost: O(candidates log candidates). Memory: 300 bytes per candidate.
+/// \throw InvalidArgument when an option is out of range or labels are not those of the cloud; OutOfMemory;
+/// Cancelled.
+/// Threads: any number, same bits. Cost: O(candidates log candidates). Memory: that of Candidates, and 200
+/// bytes per candidate.
 [[nodiscard]] FeatureGraph trace_demarsin(const PointCloud& cloud, const NeighborSearch& search,
                                           const FeatureLabels& labels, double spacing,
                                           const TraceDemarsinOptions& options = {},

@@ -4,13 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
 #include "keenline/detect/pattern_penalties.h"
-#include "keenline/errors.h"
 #include "keenline/lines/pattern_lines.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
@@ -43,11 +41,7 @@ std::vector<PointPenalties> penalties_of(const LinePoints& points, const PointCl
 FeatureGraph trace_gumhold(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
                            double spacing, const TraceGumholdOptions& options, Progress& progress) {
   require_neighbor_count(options.neighbors);
-  if (options.shortest_cycle && *options.shortest_cycle < 1)
-    throw InvalidArgument(
-        fmt::format("shortest_cycle: found {}, expected 1 or more", *options.shortest_cycle));
-  const std::size_t cycle = options.shortest_cycle ? static_cast<std::size_t>(*options.shortest_cycle)
-                                                   : shortest_cycle_for(count_finite(cloud));
+  const std::size_t cycle = cycle_of(options.shortest_cycle, cloud);
   const PenaltyRule rule;
   FeatureGraph graph;
   for (const LineKind kind : {LineKind::Crease, LineKind::Border}) {

@@ -6,25 +6,20 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/cloud.h"
-#include "keenline/errors.h"
 #include "keenline/kernels/portable_math.h"
 #include "keenline/lines/pattern_lines.h"
 #include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
 namespace {
 
 void validate(const TracePaulyOptions& options) {
-  if (!(options.length_weight >= 0 && options.length_weight <= 1))
-    throw InvalidArgument(fmt::format("length_weight: found {}, expected 0 to 1", options.length_weight));
-  if (options.shortest_cycle && *options.shortest_cycle < 1)
-    throw InvalidArgument(
-        fmt::format("shortest_cycle: found {}, expected 1 or more", *options.shortest_cycle));
+  require_in_range("length_weight", options.length_weight, 0, 1);
   std::vector<Point> none;
   relax_snake(none, false, options.snake, {});
 }
@@ -103,8 +98,7 @@ void relax(PatternLine& line, const StrengthField& field, const SnakeOptions& op
 FeatureGraph trace_pauly(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
                          double spacing, const TracePaulyOptions& options, Progress& progress) {
   validate(options);
-  const std::size_t cycle = options.shortest_cycle ? static_cast<std::size_t>(*options.shortest_cycle)
-                                                   : shortest_cycle_for(count_finite(cloud));
+  const std::size_t cycle = cycle_of(options.shortest_cycle, cloud);
   FeatureGraph graph;
   for (const LineKind kind : {LineKind::Crease, LineKind::Border}) {
     const LinePoints points = line_points(cloud, search, labels, spacing, kind, progress);

@@ -27,9 +27,11 @@ struct TracePaulyOptions {
 /// are in the middle of their junctions. Filled in are vertices, kind, closed, corners and support. The graph
 /// is valid, see validate(). Paper: Pauly, Keiser, Gross 2003, "Multi-scale Feature Extraction on
 /// Point-Sampled Surfaces", the stages after classification. Departures: see docs/methods/pauly.md. Threads:
-/// any number, same bits. \param spacing of the cloud, see estimate_spacing(); nothing is traced unless it is
-/// more than 0 \pre search is in the cloud's positions \throw InvalidArgument when an option is out of range
-/// or labels are not those of the cloud; OutOfMemory; Cancelled.
+/// any number, same bits.
+/// \param spacing of the cloud, see estimate_spacing(); nothing is traced unless it is more than 0
+/// \pre search is in the cloud's positions
+/// \throw InvalidArgument when an option is out of range or labels are not those of the cloud; OutOfMemory;
+/// Cancelled.
 [[nodiscard]] FeatureGraph trace_pauly(const PointCloud& cloud, const NeighborSearch& search,
                                        const FeatureLabels& labels, double spacing,
                                        const TracePaulyOptions& options = {},

@@ -5,21 +5,20 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "keenline/detect/voters.h"
-#include "keenline/errors.h"
 #include "keenline/kernels/tensor_votes.h"
 #include "keenline/lines/candidates.h"
 #include "keenline/lines/finish_net.h"
 #include "keenline/lines/line_net.h"
+#include "keenline/memory.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -31,15 +30,11 @@ constexpr double passed_within = 1.5;  // of a curve: candidates are its band
 constexpr double junction_size = 3;    // curves stop short of a junction by about the width of their bands
 
 void require_usable(const TraceTensorVotingOptions& options) {
-  const auto require = [](double value, double least, double most, std::string_view name) {
-    if (!(value >= least && value <= most))
-      throw InvalidArgument(fmt::format("{}: found {}, expected {} to {}", name, value, least, most));
-  };
-  require(options.voting_scale, 1, largest_voting_scale, "voting_scale");
-  require(options.curvature_weight, 0, 100, "curvature_weight");
-  require(options.gap, 1, 4.5, "gap");
-  require(options.close_reach, 0, 100, "close_reach");
-  require(options.min_branch, 0, 1000, "min_branch");
+  require_in_range("voting_scale", options.voting_scale, 1, largest_voting_scale);
+  require_in_range("curvature_weight", options.curvature_weight, 0, 100);
+  require_in_range("gap", options.gap, 1, 4.5);
+  require_in_range("close_reach", options.close_reach, 0, 100);
+  require_in_range("min_branch", options.min_branch, 0, 1000);
 }
 
 /// What was voted at a candidate.
@@ -53,6 +48,7 @@ std::vector<CurveToken> vote(const PointCloud& cloud, const NeighborSearch& sear
                              const Candidates& candidates, const TraceTensorVotingOptions& options,
                              Progress& progress) {
   const int count = voters_within(options.voting_scale);
+  require_memory(cloud.size() * sizeof(Stick) + candidates.size() * sizeof(CurveToken), "tensor voting");
   tbb::enumerable_thread_specific<Voters> workspace;
   std::vector<Stick> sticks(cloud.size());
   search.for_each_block(
@@ -187,7 +183,7 @@ class CurveWalker {
       const bool is_near = distance(candidates_.positions()[candidate], here.position) <= passed_within;
       if (is_passed_[candidate] || !is_near) return;
       is_passed_[candidate] = true;
-      ++count;
+      count += candidates_.copies()[candidate];
     };
     for (const std::uint32_t candidate : candidates_.near(here.candidate)) pass_one(candidate);
     pass_one(here.candidate);

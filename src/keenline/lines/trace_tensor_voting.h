@@ -26,9 +26,10 @@ struct TraceTensorVotingOptions {
 /// whose curves are marched on a dense field. Departures: see docs/methods/tensor_voting.md.
 /// \param spacing of the cloud, see estimate_spacing(); nothing is traced unless it is more than 0
 /// \pre search is in the cloud's positions
-/// \throw InvalidArgument when an option is out of range or labels are not those of the cloud; Cancelled.
-/// Threads: any number, same bits. Cost: O(candidates k), k = voters_within(voting_scale). Memory: 32 bytes a
-/// point, 500 per candidate.
+/// \throw InvalidArgument when an option is out of range or labels are not those of the cloud; OutOfMemory;
+/// Cancelled.
+/// Threads: any number, same bits. Cost: O(candidates k), k = voters_within(voting_scale). Memory: that of
+/// Candidates, 32 bytes a point, 200 per candidate.
 [[nodiscard]] FeatureGraph trace_tensor_voting(const PointCloud& cloud, const NeighborSearch& search,
                                                const FeatureLabels& labels, double spacing,
                                                const TraceTensorVotingOptions& options = {},

@@ -33,17 +33,6 @@ class LocalOffsets {
   double per_unit_ = 1;
 };
 
-/// Adds weight * v * v^T.
-inline void add_square(kernels::Symmetric3& sum, const Point& v, double weight) {
-  const Point w{weight * v[0], weight * v[1], weight * v[2]};
-  sum.xx += w[0] * v[0];
-  sum.xy += w[0] * v[1];
-  sum.xz += w[0] * v[2];
-  sum.yy += w[1] * v[1];
-  sum.yz += w[1] * v[2];
-  sum.zz += w[2] * v[2];
-}
-
 /// Scatter, about their mean, of a point and its neighbours at `offsets`: the sum of squares, not divided.
 [[nodiscard]] kernels::Symmetric3 scatter_of(std::span<const Point> offsets);
 

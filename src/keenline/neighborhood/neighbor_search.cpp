@@ -222,6 +222,16 @@ std::vector<std::uint32_t> NeighborSearch::nearest_to(const Point& position, int
   return Nearest(*tree_, tree_->scaled(position), count, nowhere).find();
 }
 
+std::vector<std::uint32_t> NeighborSearch::first_coincident() const {
+  std::vector<std::uint32_t> first(size_);
+  std::iota(first.begin(), first.end(), 0U);
+  if (!tree_->has_coincident_points()) return first;
+  for (std::uint32_t location = 0; location < tree_->location_count(); ++location)
+    for (const std::uint32_t point : tree_->points_at(location))
+      first[point] = tree_->first_point_at(location);
+  return first;
+}
+
 void NeighborSearch::for_each_block(int count, const Visit& visit, Progress& progress) const {
   require_neighbor_count(count);
   const std::size_t blocks = (groups_.size() + groups_per_block - 1) / groups_per_block;

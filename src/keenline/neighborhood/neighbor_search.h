@@ -41,6 +41,10 @@ class NeighborSearch {
   /// \throw InvalidArgument unless count >= 1
   [[nodiscard]] std::vector<std::uint32_t> nearest_to(const Point& position, int count) const;
 
+  /// Of every point the first one that lies at the same place: itself, where no earlier one does or it is not
+  /// finite. Cost: O(n).
+  [[nodiscard]] std::vector<std::uint32_t> first_coincident() const;
+
   /// neighborhoods.of(i) are the neighbours of points[i]; both are overwritten after the call.
   using Visit =
       std::function<void(std::span<const std::uint32_t> points, const Neighborhoods& neighborhoods)>;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/local_offsets.h"
+#include "keenline/require.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -24,17 +24,11 @@ constexpr int max_rounds = 1000;
 constexpr Point no_normal{0, 0, 0};
 
 void validate(const SmoothOptions& options) {
-  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
-    if (!ok) throw InvalidArgument(fmt::format("{}: found {}, expected {}", name, found, expected));
-  };
-  const auto is_count = [](int count) { return count >= min_neighbors && count <= max_neighbors; };
-  const auto is_rounds = [](int rounds) { return rounds >= 0 && rounds <= max_rounds; };
-  require(is_count(options.neighbors), "neighbors", options.neighbors, "3 to 255");
-  require(is_count(options.normal_neighbors), "normal_neighbors", options.normal_neighbors, "3 to 255");
-  require(options.angle_deg >= 1 && options.angle_deg <= 90, "angle_deg", options.angle_deg,
-          "1 to 90 degrees");
-  require(is_rounds(options.normal_rounds), "normal_rounds", options.normal_rounds, "0 to 1000");
-  require(is_rounds(options.position_rounds), "position_rounds", options.position_rounds, "0 to 1000");
+  require_neighbor_count(options.neighbors);
+  require_in_range("normal_neighbors", options.normal_neighbors, min_neighbors, max_neighbors);
+  require_in_range("angle_deg", options.angle_deg, 1, 90);
+  require_in_range("normal_rounds", options.normal_rounds, 0, max_rounds);
+  require_in_range("position_rounds", options.position_rounds, 0, max_rounds);
 }
 
 class Smoother {

@@ -32,13 +32,11 @@ double lower_median(std::vector<double> values) {
   return *middle;
 }
 
-/// Spacing of a surface where a disc of the radius `farthest` has `count` points beside the one in its
-/// middle.
+}  // namespace
+
 double spacing_within(const Point& farthest, std::size_t count) {
   return std::sqrt(dot(farthest, farthest) * (kernels::pi / (static_cast<double>(count) + 0.5)));
 }
-
-}  // namespace
 
 double estimate_spacing(const PointCloud& cloud, const NeighborSearch& search) {
   constexpr std::size_t largest_sample = 131072;

@@ -2,36 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
-#include <numeric>
+#include <limits>
 #include <queue>
 #include <tuple>
 #include <utility>
+
+#include "keenline/neighborhood/disjoint_sets.h"
+#include "keenline/require.h"
 
 namespace keenline {
 namespace {
 
 using Neighbors = std::vector<std::vector<std::uint32_t>>;
-
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t find(std::uint32_t node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  /// False when they were one already.
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Breadth first, from both nodes by turns: between two nodes that are far from each other most of what one
 /// search would see is as far away as it may look.
@@ -83,13 +67,21 @@ class DetourSearch {
 
 }  // namespace
 
+std::size_t shortest_cycle_for(std::size_t points, std::size_t least) {
+  return std::max(least, static_cast<std::size_t>(std::sqrt(static_cast<double>(points)) / 2));
+}
+
+void require_cycle(int shortest_cycle) {
+  require_in_range("shortest_cycle", shortest_cycle, 1, std::numeric_limits<double>::infinity());
+}
+
 SpanningPattern::SpanningPattern(std::size_t node_count, std::vector<WeightedEdge> edges,
                                  std::size_t longest_detour, const Progress& progress)
     : neighbors_(node_count) {
   std::sort(edges.begin(), edges.end(), [](const WeightedEdge& x, const WeightedEdge& y) {
     return std::tie(x.weight, x.a, x.b) < std::tie(y.weight, y.a, y.b);
   });
-  Components components(node_count);
+  DisjointSets components(node_count);
   DetourSearch search(neighbors_);
   for (const WeightedEdge& edge : edges) {
     progress.check();
@@ -106,9 +98,9 @@ void SpanningPattern::disconnect(std::uint32_t a, std::uint32_t b) {
 }
 
 void SpanningPattern::drop_components_below(std::size_t min_nodes) {
-  Components components(size());
+  DisjointSets components(size());
   for (std::uint32_t node = 0; node < size(); ++node)
-    for (const std::uint32_t neighbor : neighbors_[node]) (void)components.join(node, neighbor);
+    for (const std::uint32_t neighbor : neighbors_[node]) components.join(node, neighbor);
   std::vector<std::size_t> count(size());
   for (std::uint32_t node = 0; node < size(); ++node) ++count[components.find(node)];
   for (std::uint32_t node = 0; node < size(); ++node)

@@ -22,6 +22,13 @@ struct PatternChain {
   bool is_loop = false;  ///< goes on from the last node to the first; that one alone may be a junction
 };
 
+/// Half the square root of the number of points, as many edges as Gumhold et al. ask of a cycle; not less
+/// than `least`.
+[[nodiscard]] std::size_t shortest_cycle_for(std::size_t points, std::size_t least);
+
+/// \throw InvalidArgument unless 1 or more.
+void require_cycle(int shortest_cycle);
+
 /// A minimum spanning pattern: a minimum spanning forest that may close long cycles, so that loops of a
 /// drawing stay loops. Gumhold, Wang, MacLeod 2001, "Feature Extraction from Point Clouds", section 4; Pauly,
 /// Keiser, Gross 2003 cut their feature lines from the same.
