@@ -1,0 +1,150 @@
+import { Color, Scene, Vector4, WebGLRenderer, type Matrix4 } from "three";
+import { cameraOf, fitted, projectionOf, type Pose } from "./camera";
+import { Cloud } from "./cloud";
+import type { View } from "./controls";
+import { EyeDome } from "./eye_dome";
+import type { Vector } from "./facts";
+import type { Space } from "./space";
+import { Strokes } from "./strokes";
+
+export const standardPose: Pose = {
+  target: [0, 0, 0],
+  height: 2,
+  azimuthDeg: -60,
+  elevationDeg: 25,
+  isPerspective: true,
+};
+
+const slowFrame = 60; // ms; above, fewer points are drawn while the view moves
+const restAfter = 150; // ms without a movement until all points are drawn again
+
+/** The canvas and what is on it. Draws when something has changed, and only then. */
+export class Stage implements View {
+  readonly cloud: Cloud;
+  readonly lines: Strokes;
+  readonly marks: Strokes; // always in front: selected points, measured distances
+  private readonly renderer: WebGLRenderer;
+  private readonly eyeDome = new EyeDome();
+  private readonly things = new Scene();
+  private readonly foreground = new Scene();
+  private currentPose = standardPose;
+  private background = new Color();
+  private isWaiting = false;
+  private budget: number; // points that can be drawn while the view moves
+  private lastMove = -Infinity;
+  private requestedAt = 0;
+
+  /** \param onDraw called after every picture \throw where there is no WebGL 2 */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly space: Space,
+    splatRadius: number,
+    private readonly onDraw: () => void,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: false });
+    this.renderer.autoClear = false;
+    this.cloud = new Cloud(space.ofAll(), splatRadius);
+    this.lines = new Strokes(3 * splatRadius);
+    this.marks = new Strokes(0);
+    this.marks.object.material.depthTest = false;
+    this.things.add(this.cloud.object, this.lines.object);
+    this.foreground.add(this.marks.object);
+    this.budget = this.cloud.count;
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  get pose(): Pose {
+    return this.currentPose;
+  }
+
+  setPose(pose: Pose): void {
+    this.currentPose = pose;
+    this.lastMove = performance.now();
+    this.requestPicture();
+  }
+
+  fit(): void {
+    this.setPose(fitted(this.currentPose, this.space.low, this.space.high, this.aspect()));
+  }
+
+  setBackground(color: Color): void {
+    this.background = color;
+    this.requestPicture();
+  }
+
+  /** From the space of things to clip coordinates. */
+  projection(): Matrix4 {
+    return projectionOf(cameraOf(this.currentPose, this.aspect(), this.reach()));
+  }
+
+  /** In CSS pixels from the left upper corner; null behind the viewer. */
+  placeOf(position: Vector): { x: number; y: number } | null {
+    const clip = new Vector4(...position, 1).applyMatrix4(this.projection());
+    if (clip.w <= 0) return null;
+    return {
+      x: (0.5 + clip.x / clip.w / 2) * this.canvas.clientWidth,
+      y: (0.5 - clip.y / clip.w / 2) * this.canvas.clientHeight,
+    };
+  }
+
+  requestPicture(): void {
+    if (this.isWaiting) return;
+    this.isWaiting = true;
+    this.requestedAt = performance.now();
+    requestAnimationFrame(() => this.frame());
+  }
+
+  /** The view as a PNG, all points drawn. */
+  picture(): Promise<Blob | null> {
+    this.draw(this.cloud.count);
+    return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+  }
+
+  private frame(): void {
+    this.isWaiting = false;
+    const now = performance.now();
+    const isMoving = now - this.lastMove < restAfter;
+    // A card that is still busy with the picture before lets the next one wait.
+    if (isMoving) this.adaptBudget(now - this.requestedAt);
+    this.draw(isMoving ? this.budget : this.cloud.count);
+    if (isMoving && this.budget < this.cloud.count) setTimeout(() => this.requestPicture(), restAfter + 10);
+    this.onDraw();
+  }
+
+  private adaptBudget(waited: number): void {
+    if (waited > slowFrame) this.budget = Math.max(20000, (this.budget * slowFrame) / waited);
+    else if (waited < slowFrame / 2) this.budget *= 1.25;
+    this.budget = Math.min(this.budget, this.cloud.count);
+  }
+
+  private draw(shown: number): void {
+    const ratio = this.renderer.getPixelRatio();
+    const { width, height } = this.canvas;
+    this.cloud.prepare(shown, height, ratio);
+    this.lines.prepare(width, height, ratio);
+    this.marks.prepare(width, height, ratio);
+    const camera = cameraOf(this.currentPose, this.aspect(), this.reach());
+    this.eyeDome.render(this.renderer, this.things, camera, this.background);
+    this.renderer.render(this.foreground, camera);
+  }
+
+  private aspect(): number {
+    return Math.max(1, this.canvas.clientWidth) / Math.max(1, this.canvas.clientHeight);
+  }
+
+  /** How far from the target anything lies. */
+  private reach(): number {
+    const { low, high } = this.space;
+    const farthest = [0, 1, 2].map((axis) =>
+      Math.max(Math.abs(low[axis] - this.currentPose.target[axis]), Math.abs(high[axis] - this.currentPose.target[axis])),
+    );
+    return 1.05 * Math.hypot(...farthest) + 0.01;
+  }
+
+  private resize(): void {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setSize(Math.max(1, this.canvas.clientWidth), Math.max(1, this.canvas.clientHeight), false);
+    this.requestPicture();
+  }
+}
