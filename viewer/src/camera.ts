@@ -82,11 +82,17 @@ export function zoomed(pose: Pose, factor: number, x = 0, y = 0): Pose {
 
 /** The whole box fits, seen from where the viewer stands. */
 export function fitted(pose: Pose, low: Vector, high: Vector, aspect: number): Pose {
-  const { right, up, toward } = axesOf(pose);
+  const axes = axesOf(pose);
   const half: Vector = [(high[0] - low[0]) / 2, (high[1] - low[1]) / 2, (high[2] - low[2]) / 2];
-  const along = (axis: Vector) => half.reduce((sum, h, i) => sum + h * Math.abs(axis[i]), 0);
-  const depth = pose.isPerspective ? along(toward) * Math.tan((fieldOfViewDeg * Math.PI) / 360) : 0;
-  const height = 2 * Math.max(along(up), along(right) / aspect) + 2 * depth;
+  const slope = pose.isPerspective ? 2 * Math.tan((fieldOfViewDeg * Math.PI) / 360) : 0;
+  let height = 1e-5;
+  for (let corner = 0; corner < 8; ++corner) {
+    const at: Vector = [0, 1, 2].map((axis) => (corner & (1 << axis) ? half[axis] : -half[axis])) as Vector;
+    const along = (axis: Vector) => axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2];
+    // What is nearer to the viewer than the target takes more room.
+    const beside = Math.max(Math.abs(along(axes.up)), Math.abs(along(axes.right)) / aspect);
+    height = Math.max(height, 2 * beside + slope * along(axes.toward));
+  }
   const target: Vector = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
-  return { ...pose, target, height: Math.max(1.04 * height, 1e-5) };
+  return { ...pose, target, height: 1.12 * height };
 }

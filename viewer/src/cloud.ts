@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, GLSL3, Points, RawShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, GLSL3, Points, RawShaderMaterial, Sphere } from "three";
 
 const vertexShader = `
 precision highp float;
@@ -7,6 +7,7 @@ uniform mat4 projectionMatrix;
 uniform float radius;
 uniform float screenHeight;  // pixels
 uniform float smallest;      // pixels
+uniform float largest;       // pixels; beyond, splats grow more slowly than what they are on
 in vec3 position;
 in vec4 paint;
 flat out vec3 color;
@@ -20,10 +21,15 @@ void main() {
   }
   bool isSharp = paint.a > 1.5;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  // Sharp points lie among others: a little larger and nearer, they are not half covered.
-  float size = isSharp ? 1.15 * radius : radius;
+  // Sharp points need cover no surface, but lie among others: smaller and nearer, they are not half covered.
+  float size = isSharp ? 0.8 * radius : radius;
   gl_Position = projectionMatrix * seen;
-  gl_PointSize = max(smallest, size * projectionMatrix[1][1] * screenHeight / gl_Position.w);
+  float pixelsPerUnit = projectionMatrix[1][1] * screenHeight / gl_Position.w;
+  // From afar splats are a closed surface; from near each is a point of its own.
+  float pixels = size * pixelsPerUnit;
+  if (pixels > largest) pixels = largest + 0.25 * (pixels - largest);
+  gl_PointSize = max(smallest, pixels);
+  size = gl_PointSize / pixelsPerUnit;
   depth = -seen.z - (isSharp ? 0.8 * radius : 0.0);
   bulge = size;
   color = paint.rgb / 255.0;
@@ -41,7 +47,7 @@ void main() {
   vec2 place = 2.0 * gl_PointCoord - 1.0;
   float away = dot(place, place);
   if (away > 1.0) discard;
-  vec2 clip = mat2(projectionMatrix[2].zw, projectionMatrix[3].zw) * vec2(-(depth - bulge * (0.5 - 0.5 * away)), 1.0);
+  vec2 clip = mat2(projectionMatrix[2].zw, projectionMatrix[3].zw) * vec2(-(depth - bulge * (0.3 - 0.3 * away)), 1.0);
   gl_FragDepth = 0.5 * clip.x / clip.y + 0.5;
   result = vec4(color, 1.0);
 }`;
@@ -60,13 +66,14 @@ export class Cloud {
     const count = positions.length / 3;
     this.paint = new Uint8Array(4 * count);
     this.geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    this.geometry.boundingSphere = new Sphere();
     this.geometry.setAttribute("paint", new BufferAttribute(this.paint, 4));
     this.geometry.setIndex(new BufferAttribute(scattered(count), 1));
     const material = new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader,
       fragmentShader,
-      uniforms: { radius: { value: radius }, screenHeight: { value: 1 }, smallest: { value: 1.5 } },
+      uniforms: { radius: { value: radius }, screenHeight: { value: 1 }, smallest: { value: 1 }, largest: { value: 1 } },
     });
     this.object = new Points(this.geometry, material);
     this.object.frustumCulled = false;
@@ -89,6 +96,7 @@ export class Cloud {
     uniforms.radius.value = this.radius * growth;
     uniforms.screenHeight.value = screenHeight;
     uniforms.smallest.value = 1.6 * pixelRatio;
+    uniforms.largest.value = 14 * pixelRatio;
   }
 }
 

@@ -9,8 +9,10 @@ import {
   NearestFilter,
   OrthographicCamera,
   RawShaderMaterial,
+  Sphere,
   Vector2,
   Vector3,
+  Vector4,
   WebGLRenderTarget,
   type Camera,
   type Scene,
@@ -25,47 +27,86 @@ void main() {
   gl_Position = vec4(position, 0.0, 1.0);
 }`;
 
+const samples = 12;
+
+/** Evenly over the unit disc: a sunflower's seeds. */
+function sunflower(): string {
+  const seeds = Array.from({ length: samples }, (_, i) => {
+    const radius = Math.sqrt((i + 1) / samples);
+    const angle = i * Math.PI * (3 - Math.sqrt(5));
+    return `vec2(${(radius * Math.cos(angle)).toFixed(6)}, ${(radius * Math.sin(angle)).toFixed(6)})`;
+  });
+  return `const vec2 around[${samples}] = vec2[${samples}](${seeds.join(", ")});`;
+}
+
 const fragmentShader = `
 precision highp float;
-uniform sampler2D picture;
+uniform sampler2D picture;   // alpha: how much of the light counts
 uniform sampler2D depths;
 uniform vec2 pixel;          // in shares of the screen
 uniform float pixelRatio;
-uniform vec2 depthRow;       // of the projection: how depths in the buffer follow from depths in space
-uniform vec2 depthRow2;
-uniform float pixelSize;     // of a pixel at depth 1 (perspective) or anywhere, in space
+uniform vec4 depthRows;      // of the projection: how depths in the buffer follow from depths in space
+uniform float pixelSize;     // in space: of a pixel at depth 1 (perspective) or anywhere
 uniform bool isPerspective;
+uniform float splatRadius;
 uniform vec3 background;
 in vec2 place;
 out vec4 result;
 
+const float nowhere = 1e6;
+${sunflower()}
+const vec3 lamp = vec3(-0.38, 0.52, 0.765);
+
 // In front of the viewer; far behind everything where there is nothing.
 float depthAt(vec2 at) {
   float d = texture(depths, at).r;
-  if (d >= 1.0) return 1e6;
   float ndc = 2.0 * d - 1.0;
-  return (depthRow2.x - ndc * depthRow2.y) / (depthRow.x - ndc * depthRow.y);
+  return d >= 1.0 ? nowhere : (depthRows.z - ndc * depthRows.w) / (depthRows.x - ndc * depthRows.y);
 }
 
 void main() {
-  float center = depthAt(place);
-  // How steeply everything around stands before the pixel: crevices and silhouettes are dark.
-  float scale = pixelSize * (isPerspective ? min(center, 1e3) : 1.0);
-  float shade = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    float angle = 0.785398 * float(i);
-    vec2 offset = vec2(cos(angle), sin(angle)) * pixelRatio * (i % 2 == 0 ? 1.2 : 2.4);
-    float rise = (min(center, 1e5) - depthAt(place + offset * pixel)) / (scale * length(offset));
-    shade += clamp(rise, 0.0, 4.0);
+  float depth = depthAt(place);
+  if (depth == nowhere) {
+    result = vec4(background, 1.0);
+    return;
   }
-  float light = exp(-0.055 * shade);
+  float size = pixelSize * (isPerspective ? depth : 1.0);
+  float reach = clamp(1.5 * splatRadius / size, 1.5 * pixelRatio, 14.0 * pixelRatio);
+
+  // The plane that fits what is around best, all lengths in pixels; what is far in front or behind is another surface.
+  float count = 1.0, hidden = 0.0;
+  vec2 sum = vec2(0.0), rises = vec2(0.0);
+  vec3 squares = vec3(0.0);
+  float height = 0.0;
+  float steepest = 4.0 * reach;
+  for (int i = 0; i < ${samples}; ++i) {
+    vec2 offset = reach * around[i];
+    float rise = (depth - depthAt(place + offset * pixel)) / size;
+    if (abs(rise) > steepest) {
+      hidden += rise > 0.0 ? 1.0 : 0.25;
+      continue;
+    }
+    count += 1.0;
+    sum += offset;
+    height += rise;
+    rises += rise * offset;
+    squares += vec3(offset.x * offset.x, offset.x * offset.y, offset.y * offset.y);
+  }
+  squares -= vec3(sum.x * sum.x, sum.x * sum.y, sum.y * sum.y) / count;
+  rises -= height * sum / count;
+  float determinant = squares.x * squares.z - squares.y * squares.y;
+  vec2 slope = determinant > 1e-3 ? vec2(squares.z * rises.x - squares.y * rises.y, squares.x * rises.y - squares.y * rises.x) / determinant : vec2(0.0);
+
+  float light = 0.52 + 0.52 * max(0.0, dot(normalize(vec3(-slope, 1.0)), lamp));
+  // Behind silhouettes and in crevices it is darker.
+  light *= exp(-0.07 * hidden) * exp(-0.25 * clamp(height / count / reach, 0.0, 2.0));
   vec4 seen = texture(picture, place);
-  bool isBackground = center > 1e5;
-  result = vec4(isBackground ? mix(background, background * light, 0.35) : seen.rgb * light, 1.0);
+  result = vec4(seen.rgb * mix(1.0, light, seen.a), 1.0);
 }`;
 
 /**
- * Eye-dome lighting (C. Boucheny 2009): shape from depth alone, for points without normals.
+ * Light for points without normals: the surface at a pixel is the plane that fits the depths around it, and what lies
+ * behind an edge of the depths is darker, as in eye-dome lighting (C. Boucheny 2009).
  */
 export class EyeDome {
   private readonly target: WebGLRenderTarget;
@@ -80,6 +121,7 @@ export class EyeDome {
     });
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(Float32Array.of(-1, -1, 3, -1, -1, 3), 2));
+    geometry.boundingSphere = new Sphere();
     const material = new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader,
@@ -91,8 +133,8 @@ export class EyeDome {
         depths: { value: this.target.depthTexture },
         pixel: { value: new Vector2() },
         pixelRatio: { value: 1 },
-        depthRow: { value: new Vector2() },
-        depthRow2: { value: new Vector2() },
+        depthRows: { value: new Vector4() },
+        splatRadius: { value: 0 },
         pixelSize: { value: 1 },
         isPerspective: { value: true },
         background: { value: new Vector3() },
@@ -102,7 +144,7 @@ export class EyeDome {
     this.sheet.frustumCulled = false;
   }
 
-  render(renderer: WebGLRenderer, scene: Scene, camera: Camera, background: Color): void {
+  render(renderer: WebGLRenderer, scene: Scene, camera: Camera, splatRadius: number, background: Color): void {
     const size = renderer.getDrawingBufferSize(new Vector2());
     this.target.setSize(size.x, size.y);
     const u = this.sheet.material.uniforms;
@@ -110,14 +152,14 @@ export class EyeDome {
     u.pixel.value.set(1 / size.x, 1 / size.y);
     u.pixelRatio.value = renderer.getPixelRatio();
     // z_ndc = (p10 z + p14) / (p11 z + p15) with z = -depth.
-    u.depthRow.value.set(p[10], p[11]);
-    u.depthRow2.value.set(p[14], p[15]);
+    u.depthRows.value.set(p[10], p[11], p[14], p[15]);
+    u.splatRadius.value = splatRadius;
     u.pixelSize.value = 2 / (p[5] * size.y);
     u.isPerspective.value = p[11] !== 0;
     u.background.value.set(background.r, background.g, background.b);
 
     renderer.setRenderTarget(this.target);
-    renderer.setClearColor(0x000000, 0);
+    renderer.setClearColor(0x000000, 1);
     renderer.clear();
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);

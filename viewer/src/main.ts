@@ -64,11 +64,11 @@ class Page {
     }
   }
 
-  /** So that splats of neighbours just meet, also where the cloud is thinned. */
+  /** So that splats of neighbours cover what lies between them, also where the cloud is thinned. */
   private splatRadius(): number {
     const { spacing, input, cloud } = this.result.facts;
     const thinned = Math.sqrt(Math.max(1, input.finite_points / Math.max(1, cloud.kept)));
-    const radius = 0.62 * spacing * Math.min(thinned, 4) * this.space.unit;
+    const radius = 0.95 * spacing * Math.min(thinned, 4) * this.space.unit;
     return Number.isFinite(radius) && radius > 0 ? Math.min(Math.max(radius, 1e-5), 0.05) : 0.02;
   }
 

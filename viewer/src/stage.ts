@@ -16,6 +16,7 @@ export const standardPose: Pose = {
 };
 
 const slowFrame = 60; // ms; above, fewer points are drawn while the view moves
+const fewestPoints = 30000; // that are drawn while it moves
 const restAfter = 150; // ms without a movement until all points are drawn again
 
 /** The canvas and what is on it. Draws when something has changed, and only then. */
@@ -31,21 +32,22 @@ export class Stage implements View {
   private background = new Color();
   private isWaiting = false;
   private budget: number; // points that can be drawn while the view moves
+  private coarseness = 1; // pixels of the screen to a pixel of the picture, while the view moves
   private lastMove = -Infinity;
-  private requestedAt = 0;
+  private isTiming = false;
 
   /** \param onDraw called after every picture \throw where there is no WebGL 2 */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly space: Space,
-    splatRadius: number,
+    private readonly splatRadius: number,
     private readonly onDraw: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: false });
     this.renderer.autoClear = false;
     this.cloud = new Cloud(space.ofAll(), splatRadius);
-    this.lines = new Strokes(3 * splatRadius);
-    this.marks = new Strokes(0);
+    this.lines = new Strokes(3 * splatRadius, 0);
+    this.marks = new Strokes(0, 1);
     this.marks.object.material.depthTest = false;
     this.things.add(this.cloud.object, this.lines.object);
     this.foreground.add(this.marks.object);
@@ -91,12 +93,12 @@ export class Stage implements View {
   requestPicture(): void {
     if (this.isWaiting) return;
     this.isWaiting = true;
-    this.requestedAt = performance.now();
     requestAnimationFrame(() => this.frame());
   }
 
   /** The view as a PNG, all points drawn. */
   picture(): Promise<Blob | null> {
+    this.setResolution(1);
     this.draw(this.cloud.count);
     return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
   }
@@ -105,17 +107,39 @@ export class Stage implements View {
     this.isWaiting = false;
     const now = performance.now();
     const isMoving = now - this.lastMove < restAfter;
-    // A card that is still busy with the picture before lets the next one wait.
-    if (isMoving) this.adaptBudget(now - this.requestedAt);
+    this.setResolution(isMoving ? this.coarseness : 1);
     this.draw(isMoving ? this.budget : this.cloud.count);
-    if (isMoving && this.budget < this.cloud.count) setTimeout(() => this.requestPicture(), restAfter + 10);
+    if (isMoving) this.timePicture(now);
+    const isPoor = this.budget < this.cloud.count || this.coarseness > 1;
+    if (isMoving && isPoor) setTimeout(() => this.requestPicture(), restAfter + 10);
     this.onDraw();
   }
 
-  private adaptBudget(waited: number): void {
-    if (waited > slowFrame) this.budget = Math.max(20000, (this.budget * slowFrame) / waited);
-    else if (waited < slowFrame / 2) this.budget *= 1.25;
-    this.budget = Math.min(this.budget, this.cloud.count);
+  /** Asks the card now and then whether it is done with what was begun, and learns how much it can draw. */
+  private timePicture(begun: number): void {
+    if (this.isTiming) return;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const done = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!done) return;
+    this.isTiming = true;
+    gl.flush();
+    const look = () => {
+      if (gl.getSyncParameter(done, gl.SYNC_STATUS) !== gl.SIGNALED && performance.now() - begun < 5000) {
+        setTimeout(look, 4);
+        return;
+      }
+      gl.deleteSync(done);
+      this.isTiming = false;
+      this.adaptBudget(performance.now() - begun);
+    };
+    setTimeout(look, 0);
+  }
+
+  private adaptBudget(took: number): void {
+    const least = Math.min(fewestPoints, this.cloud.count);
+    if (took > 2 * slowFrame && this.budget <= least) this.coarseness = 2; // pixels cost more than points
+    if (took > slowFrame) this.budget = Math.max(least, (this.budget * slowFrame) / took);
+    else if (took < slowFrame / 2) this.budget = Math.min(1.25 * this.budget, this.cloud.count);
   }
 
   private draw(shown: number): void {
@@ -125,7 +149,7 @@ export class Stage implements View {
     this.lines.prepare(width, height, ratio);
     this.marks.prepare(width, height, ratio);
     const camera = cameraOf(this.currentPose, this.aspect(), this.reach());
-    this.eyeDome.render(this.renderer, this.things, camera, this.background);
+    this.eyeDome.render(this.renderer, this.things, camera, this.splatRadius, this.background);
     this.renderer.render(this.foreground, camera);
   }
 
@@ -143,8 +167,12 @@ export class Stage implements View {
   }
 
   private resize(): void {
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setSize(Math.max(1, this.canvas.clientWidth), Math.max(1, this.canvas.clientHeight), false);
     this.requestPicture();
+  }
+
+  private setResolution(coarseness: number): void {
+    const ratio = Math.min(window.devicePixelRatio || 1, 2) / coarseness;
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
   }
 }

@@ -7,6 +7,7 @@ import {
   InstancedBufferGeometry,
   Mesh,
   RawShaderMaterial,
+  Sphere,
   Vector2,
 } from "three";
 import type { Vector } from "./facts";
@@ -49,7 +50,8 @@ const fragmentShader = `
 precision highp float;
 flat in vec3 color;
 out vec4 result;
-void main() { result = vec4(color, 1.0); }`;
+uniform float alpha;
+void main() { result = vec4(color, alpha); }`;
 
 export interface Stroke {
   path: Vector[];
@@ -61,14 +63,17 @@ export interface Stroke {
 export class Strokes {
   readonly object: Mesh<BufferGeometry, RawShaderMaterial>;
 
-  /** \param nudge how much nearer to the viewer they are drawn than they are, not to sink between the points */
-  constructor(nudge: number) {
+  /**
+   * \param nudge how much nearer to the viewer they are drawn than they are, not to sink between the points
+   * \param alpha how much of the light counts where they are lit, see EyeDome; 1 elsewhere
+   */
+  constructor(nudge: number, alpha: number) {
     const material = new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader,
       fragmentShader,
       side: DoubleSide,
-      uniforms: { screen: { value: new Vector2(1, 1) }, width: { value: 2 }, nudge: { value: nudge } },
+      uniforms: { screen: { value: new Vector2(1, 1) }, width: { value: 2 }, nudge: { value: nudge }, alpha: { value: alpha } },
     });
     this.object = new Mesh(new BufferGeometry(), material);
     this.object.frustumCulled = false;
@@ -95,6 +100,7 @@ export class Strokes {
     geometry.setAttribute("end", new InstancedBufferAttribute(end, 3));
     geometry.setAttribute("paint", new InstancedBufferAttribute(paint, 4));
     geometry.instanceCount = pieces;
+    geometry.boundingSphere = new Sphere();
     this.object.geometry.dispose();
     this.object.geometry = geometry;
     this.object.visible = pieces > 0;
