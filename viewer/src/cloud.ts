@@ -28,7 +28,7 @@ void main() {
   // From afar splats are a closed surface; from near each is a point of its own.
   float pixels = size * pixelsPerUnit;
   if (pixels > largest) pixels = largest + 0.25 * (pixels - largest);
-  gl_PointSize = max(smallest, pixels);
+  gl_PointSize = max(isSharp ? 2.0 * smallest : smallest, pixels);
   size = gl_PointSize / pixelsPerUnit;
   depth = -seen.z - (isSharp ? 0.8 * radius : 0.0);
   bulge = size;
@@ -51,6 +51,9 @@ void main() {
   gl_FragDepth = 0.5 * clip.x / clip.y + 0.5;
   result = vec4(color, 1.0);
 }`;
+
+/** Across, in CSS pixels; beyond, splats grow a quarter as fast as what they are on. */
+export const largestSplat = 22;
 
 /** The cloud on the graphics card, as round splats. */
 export class Cloud {
@@ -96,7 +99,7 @@ export class Cloud {
     uniforms.radius.value = this.radius * growth;
     uniforms.screenHeight.value = screenHeight;
     uniforms.smallest.value = 1.6 * pixelRatio;
-    uniforms.largest.value = 14 * pixelRatio;
+    uniforms.largest.value = largestSplat * pixelRatio;
   }
 }
 

@@ -52,9 +52,9 @@ export type Coloring = "kind" | "clusters" | "truth" | "rgb" | { attribute: stri
 /** What can be coloured by, with its name for people. */
 export function coloringsOf(result: Result): { coloring: Coloring; name: string }[] {
   const colorings: { coloring: Coloring; name: string }[] = [{ coloring: "kind", name: "kind" }];
-  if (result.clusters) colorings.push({ coloring: "clusters", name: "number of clusters" });
+  if (result.clusters) colorings.push({ coloring: "clusters", name: "directions" });
   if (result.truth) colorings.push({ coloring: "truth", name: "agreement with truth" });
-  if (result.rgb) colorings.push({ coloring: "rgb", name: "colour in the file" });
+  if (result.rgb) colorings.push({ coloring: "rgb", name: "color of the file" });
   for (const { name } of result.attributes) colorings.push({ coloring: { attribute: name }, name });
   return colorings;
 }

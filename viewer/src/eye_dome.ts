@@ -71,7 +71,7 @@ void main() {
     return;
   }
   float size = pixelSize * (isPerspective ? depth : 1.0);
-  float reach = clamp(1.5 * splatRadius / size, 1.5 * pixelRatio, 14.0 * pixelRatio);
+  float reach = clamp(1.5 * splatRadius / size, 2.5 * pixelRatio, 14.0 * pixelRatio);
 
   // The plane that fits what is around best, all lengths in pixels; what is far in front or behind is another surface.
   float count = 1.0, hidden = 0.0;

@@ -181,11 +181,7 @@ class Page {
   }
 
   private pick(stage: Stage, pick: Pick): void {
-    const canvas = byId("canvas");
-    const screen = { width: canvas.clientWidth, height: canvas.clientHeight };
-    const isShown = (i: number) => stage.cloud.paint[4 * i + 3] > 0;
-    const thickness = 3 * this.splatRadius();
-    const point = pickPoint(stage.cloud.positions, stage.projection(), screen, pick, thickness, isShown);
+    const point = this.pointAt(stage, pick);
     if (!this.measure.isOn) {
       this.model.choosePoint(point);
       return;
@@ -193,6 +189,18 @@ class Page {
     if (point >= 0) this.measure.add(point);
     this.redrawMarks(stage);
     this.tellMeasure();
+  }
+
+  /** What was hit, or else what was missed by little. */
+  private pointAt(stage: Stage, pick: Pick): number {
+    const canvas = byId("canvas");
+    const screen = { width: canvas.clientWidth, height: canvas.clientHeight };
+    const isShown = (i: number) => stage.cloud.paint[4 * i + 3] > 0;
+    const thickness = 3 * this.splatRadius();
+    const nearest = (tolerance: number) =>
+      pickPoint(stage.cloud.positions, stage.projection(), screen, { ...pick, tolerance }, thickness, isShown);
+    const hit = nearest(Math.max(pick.tolerance, stage.splatPixels()));
+    return hit >= 0 ? hit : nearest(4 * pick.tolerance);
   }
 
   private tellMeasure(): void {

@@ -93,7 +93,10 @@ export class PointPanel {
 
   private factsOf(result: Result, point: number): HTMLElement[] {
     const rows: [string, string][] = [["position", result.coordinates(point).map((c) => positionText(c)).join(", ")]];
+    const { kept } = result.facts.cloud;
+    if (kept < result.facts.input.finite_points) rows.push(["seen among", `the ${grouped(kept)} points shown; the program saw all`]);
     for (const attribute of result.attributes) rows.push([attribute.name, rounded(attribute.value(point))]);
+    if (result.clusters) rows.push(["directions", `${result.clusters[point]}`]);
     if (result.truth) rows.push(["truth", nameOfKind(result, result.truth[point])]);
     return rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
   }

@@ -128,7 +128,7 @@ export class Result {
   private readAttributes(): Attribute[] {
     return this.facts.attributes.flatMap(({ name, buffer, low, high, step }) => {
       const values = this.columns.get(buffer);
-      if (!values || values.length !== this.count) return [];
+      if (!values || values.length !== this.count || buffer === "clusters") return []; // clusters follow sigma
       const notFinite = values instanceof Uint8Array ? 255 : 65535;
       return [{ name, low, high, value: (i) => (values[i] === notFinite ? NaN : low + step * values[i]) }];
     });

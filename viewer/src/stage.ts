@@ -1,6 +1,6 @@
 import { Color, Scene, Vector4, WebGLRenderer, type Matrix4 } from "three";
 import { cameraOf, fitted, projectionOf, type Pose } from "./camera";
-import { Cloud } from "./cloud";
+import { Cloud, largestSplat } from "./cloud";
 import type { View } from "./controls";
 import { EyeDome } from "./eye_dome";
 import type { Vector } from "./facts";
@@ -88,6 +88,13 @@ export class Stage implements View {
       x: (0.5 + clip.x / clip.w / 2) * this.canvas.clientWidth,
       y: (0.5 - clip.y / clip.w / 2) * this.canvas.clientHeight,
     };
+  }
+
+  /** Radius of a splat about where the view is directed to, in CSS pixels. */
+  splatPixels(): number {
+    const pixels = (this.splatRadius / this.currentPose.height) * this.canvas.clientHeight;
+    const largest = largestSplat / 2;
+    return pixels > largest ? largest + 0.25 * (pixels - largest) : pixels;
   }
 
   requestPicture(): void {

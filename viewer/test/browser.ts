@@ -13,11 +13,11 @@ export const program = process.env.KEENLINE;
 
 const chromiumPath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 
-export function launch(): Promise<Browser> {
+export function launch(more: string[] = []): Promise<Browser> {
   if (!chromiumPath) throw new Error("no chromium: install Debian's, or name one in CHROMIUM");
   // Software rendering everywhere; no sandbox, because containers have none to offer.
   const args = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
-  return chromium.launch({ executablePath: chromiumPath, args });
+  return chromium.launch({ executablePath: chromiumPath, args: [...args, ...more] });
 }
 
 export interface OpenPage {

@@ -26,6 +26,7 @@ await build({
   logLevel: "warning",
 });
 const files = chosen.map((name) => join(out, name.replace(".ts", ".cjs")));
-const { status } = spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" });
+const only = process.env.ONLY ? [`--test-name-pattern=${process.env.ONLY}`] : [];
+const { status } = spawnSync(process.execPath, ["--test", ...only, ...files], { stdio: "inherit" });
 await rm(out, { recursive: true });
 process.exitCode = status ?? 1;
