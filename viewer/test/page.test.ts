@@ -148,6 +148,7 @@ test("measures between two points of the cloud", async () => {
   assert.ok(Math.abs(distance - Math.hypot(x, y, z)) < 1e-3 * distance, words);
   const apart = 100 / 1024; // of the grid that the points lie on
   for (const d of [x, y, z]) assert.ok(Math.abs(d / apart - Math.round(d / apart)) < 0.01, words);
+  await page.waitForSelector("#measured:visible");
   assert.equal(await page.textContent("#measured"), `${distance}`);
 });
 
