@@ -4,9 +4,14 @@
 set -euo pipefail
 
 level=${1:?usage: scripts/setup.sh build|test|check|bench}
-packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev libsqlite3-dev libhwy-dev)
+packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev zlib1g-dev libsqlite3-dev libhwy-dev)
 tools=(c++ cmake ninja)
-headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h sqlite3.h hwy/highway.h)
+# The page of reports is built with npm. Whoever has a Node keeps it.
+if ! command -v npm >/dev/null || ! node -e 'process.exit(parseInt(process.versions.node) >= 18 ? 0 : 1)' 2>/dev/null; then
+  packages+=(nodejs npm)
+  tools+=(node npm)
+fi
+headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h zlib.h sqlite3.h hwy/highway.h)
 case $level in
   build) ;;
   bench)
