@@ -36,6 +36,34 @@ export function sensitivityOf(sigmaDeg: number): number {
   return Math.floor(sigmaDeg * unitsPerDegree);
 }
 
+/**
+ * The sensitivity of one point by persistence: its kind stays the same over the widest range there, as a ratio, between
+ * 8 and 45 degrees; of equally wide ranges the higher one. Mirrors the program's local_sensitivity().
+ */
+export function localSensitivity({ offsets, from, kind }: Spectrum, point: number): number {
+  const lowest = sensitivityOf(8);
+  const highest = sensitivityOf(45);
+  let widest = 0;
+  let sensitivity = highest;
+  let rangeBegin = lowest;
+  let stepBegin = lowest;
+  for (let step = offsets[point]; step < offsets[point + 1]; ++step) {
+    const isLast = step + 1 === offsets[point + 1] || from[step + 1] > highest;
+    const end = isLast ? highest : from[step + 1];
+    if (end <= lowest) continue; // over before the range begins
+    if (isLast || kind[step + 1] !== kind[step]) {
+      if (end / rangeBegin >= widest) {
+        widest = end / rangeBegin;
+        sensitivity = (stepBegin + end) / 2;
+      }
+      rangeBegin = end;
+    }
+    if (isLast) break;
+    stepBegin = end;
+  }
+  return Math.floor(sensitivity);
+}
+
 /** Writes the labels at a sensitivity. */
 export function relabel(spectrum: Spectrum, sensitivity: number, kind: Uint8Array, clusters: Uint8Array): void {
   const { offsets, from } = spectrum;

@@ -109,6 +109,7 @@ class Page {
       if (lines !== undefined) words.push(`${grouped(lines)} lines`);
       if (this.result.sigmaDeg !== null) words.push(`σ ${rounded(this.result.sigmaDeg)}°`);
       byId("summary").textContent = words.join(" · ");
+      byId("canvas").setAttribute("aria-label", `Point cloud of ${words.join(", ")}`);
     };
     this.model.on(["labels"], update);
     update();
@@ -125,7 +126,7 @@ class Page {
     if (spectrum) add("sensitivity", "Sensitivity", sensitivityPanel(this.model));
     add("layers", "Layers", layersPanel(this.model));
     add("coloring", "Colour by", coloringPanel(this.model));
-    if (facts.method === "gauss") add("point", "Gauss map of a point", this.point.element);
+    add("point", facts.method === "gauss" ? "Gauss map of a point" : "Point", this.point.element);
     if (facts.graph) add("line-table", "Lines", linesPanel(this.model, (line) => this.findLine(line)));
     add("facts", "Facts", factsPanel(facts), false);
     add("downloads", "Download", downloadsPanel(this.result), false);
@@ -237,9 +238,10 @@ class Page {
   /** Moves to some positions, with so many times the room that they need. */
   private show(positions: Vector[], room: number): void {
     if (!this.stage || positions.length === 0) return;
-    const side = (pick: (...values: number[]) => number) => [0, 1, 2].map((axis) => pick(...positions.map((p) => p[axis])));
-    const low = side(Math.min) as Vector;
-    const high = side(Math.max) as Vector;
+    const side = (choose: (a: number, b: number) => number) =>
+      positions.reduce((a, b): Vector => [choose(a[0], b[0]), choose(a[1], b[1]), choose(a[2], b[2])]);
+    const low = side(Math.min);
+    const high = side(Math.max);
     const canvas = byId("canvas");
     const pose = fitted(this.stage.pose, low, high, canvas.clientWidth / Math.max(1, canvas.clientHeight));
     this.stage.setPose({ ...pose, height: Math.max(pose.height * room, 10 * this.splatRadius()) });
@@ -261,12 +263,18 @@ class Page {
       pointNumber: model.point < 0 ? undefined : result.numberInFile(model.point),
     });
     history.replaceState(null, "", `#${link}`);
-    const tell = (words: string) => (byId("told").textContent = words);
-    tell("The address of this page now holds the view.");
+    this.tell("The address of this page now holds the view.");
     navigator.clipboard?.writeText(location.href).then(
-      () => tell("A link to this view is in the address bar and on the clipboard."),
+      () => this.tell("A link to this view is in the address bar and on the clipboard."),
       () => undefined,
     );
+  }
+
+  /** For a while. */
+  private tell(words: string): void {
+    const told = byId("told");
+    told.textContent = words;
+    setTimeout(() => told.textContent === words && (told.textContent = ""), 6000);
   }
 
   private restore(): void {

@@ -23,6 +23,7 @@ export class PointPanel {
   private readonly dendrogram = element("canvas", { class: "dendrogram", role: "img", "aria-label": "Dendrogram of the lines" });
   private readonly maps = element("div", { class: "maps" }, this.sphere, this.dendrogram);
   private readonly number = element("input", { type: "number", min: "0", step: "1", id: "point-number", "aria-label": "Number of a point in the file" });
+  private readonly isGauss: boolean;
   private map: GaussMap | null = null;
   private isWaiting = false;
 
@@ -32,6 +33,7 @@ export class PointPanel {
     private readonly pose: () => Pose,
     onFind: () => void,
   ) {
+    this.isGauss = model.result.facts.method === "gauss";
     this.number.addEventListener("change", () => this.model.choosePoint(this.model.result.pointOfNumber(this.number.valueAsNumber)));
     const find = button("Find", onFind, { id: "point-find" });
     const clear = button("Clear", () => this.model.choosePoint(-1));
@@ -65,7 +67,7 @@ export class PointPanel {
   private choose(): void {
     const { result, point, neighbors } = this.model;
     const wanted = wholeOption(result.facts, "neighbors") ?? 16;
-    const isPossible = point >= 0 && neighbors.length >= wanted && wanted <= mostNeighbors;
+    const isPossible = this.isGauss && point >= 0 && neighbors.length >= wanted && wanted <= mostNeighbors;
     this.map = isPossible ? gaussMap(result.seen(), point, neighbors, optionsOf(result)) : null;
     this.update();
   }
@@ -74,9 +76,10 @@ export class PointPanel {
     const { result, point, neighbors } = this.model;
     const isChosen = point >= 0;
     this.maps.hidden = !this.map;
-    this.clusters.hidden = this.facts.hidden = !isChosen;
+    this.facts.hidden = !isChosen;
+    this.clusters.hidden = !isChosen || !this.isGauss;
     if (!isChosen) {
-      this.told.textContent = "Click a point of the cloud to see what the method sees there.";
+      this.told.textContent = `Click a point of the cloud to see what ${this.isGauss ? "the method sees there" : "is known of it"}.`;
       return;
     }
     this.number.value = `${result.numberInFile(point)}`;
@@ -102,7 +105,7 @@ export class PointPanel {
   }
 
   private sigmaDeg(): number {
-    return this.model.result.sigmaDeg ?? paperSigmaDeg;
+    return this.model.result.sigmaAt(this.model.point) ?? paperSigmaDeg;
   }
 
   private cutNow(map: GaussMap): Cut {

@@ -1,6 +1,7 @@
 import { unfolded, type Columns } from "./data";
 import { wholeOption, type Facts } from "./facts";
-import { KindCounts, kinds, relabel, sensitivityOf, spectrumFrom, type Spectrum } from "./labels";
+import { unitsPerDegree } from "./gauss_map";
+import { KindCounts, kinds, localSensitivity, relabel, sensitivityOf, spectrumFrom, type Spectrum } from "./labels";
 import { NeighborSearch, type Coordinates } from "./neighborhood";
 
 /** A number per point that the cloud can be coloured by. */
@@ -96,6 +97,12 @@ export class Result {
   /** Points of a kind, as featuresAt(). */
   countAt(sigmaDeg: number, kind: number): number | null {
     return this.counts ? this.counts.at(sensitivityOf(sigmaDeg), kind) : null;
+  }
+
+  /** What the label of a point holds for, in degrees; null where the method has no sensitivity. */
+  sigmaAt(point: number): number | null {
+    if (this.sigmaDeg !== null || !this.spectrum) return this.sigmaDeg;
+    return localSensitivity(this.spectrum, point) / unitsPerDegree;
   }
 
   /** The nearest points of a point, in the cloud that the method looked at. */

@@ -42,7 +42,7 @@ export function sensitivityPanel(model: Model): HTMLElement {
     features.textContent = `${grouped(sharp)} sharp point${sharp === 1 ? "" : "s"}`;
     if (sigma !== null) {
       slider.value = `${sigma}`;
-      if (document.activeElement !== exact) exact.value = `${sigma}`;
+      if (document.activeElement !== exact) exact.value = `${Number(sigma.toFixed(5))}`;
     }
     slider.setAttribute("aria-valuetext", `${shown.textContent}, ${features.textContent}`);
     back.disabled = sigma === result.facts.sigma_deg;

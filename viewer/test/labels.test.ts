@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decodeColumns } from "../src/data";
-import { kinds, relabel, sensitivityOf, spectrumFrom } from "../src/labels";
+import { kinds, localSensitivity, relabel, sensitivityOf, spectrumFrom } from "../src/labels";
 import { Result } from "../src/result";
-import { encodeColumns } from "./encode";
+import { encodeColumns, type Column } from "./encode";
 import { creaseColumns, factsOf } from "./fixture";
 
 test("a step holds from its sensitivity up to the next", () => {
@@ -20,6 +20,30 @@ test("a step holds from its sensitivity up to the next", () => {
     assert.deepEqual([...kind], [0, expected], `${sensitivity}`);
   }
   assert.deepEqual([...clusters], [1, 1]);
+});
+
+test("of one point: the middle of the widest range of a kind between 8 and 45 degrees", () => {
+  const lasting = (...steps: [number, number][]) => {
+    const rises = steps.slice(1).map(([from], i) => (from - steps[i][0]) * 728);
+    const kind = Uint8Array.from(steps, ([, k]) => k);
+    return spectrumFrom(Uint8Array.of(steps.length), Uint16Array.from(rises), kind, new Uint8Array(steps.length));
+  };
+  const degrees = (...steps: [number, number][]) => localSensitivity(lasting(...steps), 0) / 728;
+  assert.equal(degrees([0, 0]), 26.5);
+  assert.equal(degrees([0, 1], [10, 2], [30, 0]), 20);
+  assert.equal(degrees([0, 1], [4, 2], [12, 0]), 28.5); // of 4 to 12 only 8 to 12 counts
+  assert.equal(degrees([0, 1], [8, 2], [60, 0]), 26.5);
+  assert.equal(degrees([0, 1], [16, 2], [32, 0]), 24); // 8 to 16 and 16 to 32: equally wide, the higher
+});
+
+test("what the method looked at is where the points are, and the offset", () => {
+  const columns: Column[] = [
+    { name: "position", values: Uint32Array.of(10, 20, 30, 0, 0, 0), components: 3, coding: "delta" },
+    { name: "seen_offset", values: Uint32Array.of(0, 1, 2, 3, 4, 5), components: 3, coding: "planes" },
+  ];
+  const { buffers, bytes } = encodeColumns(columns);
+  const result = new Result({ ...factsOf(2), buffers }, decodeColumns(buffers, bytes));
+  assert.deepEqual([...result.seen()], [10, 19, 31, -2, 2, -3]);
 });
 
 test("sensitivities are rounded down", () => {
