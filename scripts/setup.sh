@@ -18,8 +18,8 @@ case $level in
     packages+=(libbenchmark-dev libnanoflann-dev libcgal-dev)
     headers+=(benchmark/benchmark.h nanoflann.hpp) ;;
   test|check)
-    packages+=(libgtest-dev python3 python3-ezdxf)
-    tools+=(python3)
+    packages+=(libgtest-dev python3 python3-ezdxf chromium)
+    tools+=(python3 chromium)
     headers+=(gtest/gtest.h) ;;&
   check)
     packages+=(clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)
