@@ -29,7 +29,10 @@ const policy = [
 ].join("; ");
 
 const parts = { POLICY: policy, STYLE: styleText, SCRIPT: scriptText };
-const page = (await readFile(join(here, "src/page.html"), "utf8")).replace(/@(POLICY|STYLE|SCRIPT)@/g, (_, name) => parts[name]);
+const page = (await readFile(join(here, "src/page.html"), "utf8")).replace(
+  /@(POLICY|STYLE|SCRIPT)@/g,
+  (_, name) => parts[name],
+);
 const marker = "<!-- keenline report data -->";
 if (page.split(marker).length !== 2) throw new Error(`expected ${marker} once in the page`);
 await mkdir(out, { recursive: true });

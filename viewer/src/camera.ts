@@ -32,7 +32,12 @@ export function axesOf(pose: Pose): Axes {
 export function cameraOf(pose: Pose, aspect: number, reach: number): Camera {
   const distance = pose.height / 2 / Math.tan((fieldOfViewDeg * Math.PI) / 360);
   const camera = pose.isPerspective
-    ? new PerspectiveCamera(fieldOfViewDeg, aspect, Math.max(distance - reach, distance / 200), distance + reach)
+    ? new PerspectiveCamera(
+        fieldOfViewDeg,
+        aspect,
+        Math.max(distance - reach, distance / 200),
+        distance + reach,
+      )
     : parallelCamera(pose.height, aspect, distance, reach);
   const { right, up, toward } = axesOf(pose);
   camera.matrixAutoUpdate = false;
@@ -78,6 +83,17 @@ export function zoomed(pose: Pose, factor: number, x = 0, y = 0): Pose {
   const height = Math.min(1e3, Math.max(1e-5, pose.height * factor));
   const kept = 1 - height / pose.height;
   return { ...shifted(pose, x * kept, y * kept), height };
+}
+
+/** Seen from where a position lies, as seen from the middle of things; never from straight above or below. */
+export function facing(pose: Pose, [x, y, z]: Vector): Pose {
+  const degrees = 180 / Math.PI;
+  const elevation = Math.atan2(z, Math.hypot(x, y)) * degrees;
+  return {
+    ...pose,
+    azimuthDeg: Math.atan2(y, x) * degrees,
+    elevationDeg: Math.min(65, Math.max(-65, elevation)),
+  };
 }
 
 /** The whole box fits, seen from where the viewer stands. */

@@ -47,7 +47,8 @@ void main() {
   vec2 place = 2.0 * gl_PointCoord - 1.0;
   float away = dot(place, place);
   if (away > 1.0) discard;
-  vec2 clip = mat2(projectionMatrix[2].zw, projectionMatrix[3].zw) * vec2(-(depth - bulge * (0.3 - 0.3 * away)), 1.0);
+  float z = bulge * (0.3 - 0.3 * away) - depth;
+  vec2 clip = mat2(projectionMatrix[2].zw, projectionMatrix[3].zw) * vec2(z, 1.0);
   gl_FragDepth = 0.5 * clip.x / clip.y + 0.5;
   result = vec4(color, 1.0);
 }`;
@@ -76,7 +77,12 @@ export class Cloud {
       glslVersion: GLSL3,
       vertexShader,
       fragmentShader,
-      uniforms: { radius: { value: radius }, screenHeight: { value: 1 }, smallest: { value: 1 }, largest: { value: 1 } },
+      uniforms: {
+        radius: { value: radius },
+        screenHeight: { value: 1 },
+        smallest: { value: 1 },
+        largest: { value: 1 },
+      },
     });
     this.object = new Points(this.geometry, material);
     this.object.frustumCulled = false;

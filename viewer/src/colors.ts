@@ -4,16 +4,29 @@ import type { Vector } from "./facts";
 
 /** Colours for things that only need to be different, as in the program's pictures; they repeat. */
 const numberColors: Vector[] = [
-  [213, 94, 0], [0, 68, 158], [0, 140, 104], [204, 121, 167], [230, 170, 0], [86, 180, 233], [122, 76, 160],
+  [213, 94, 0],
+  [0, 68, 158],
+  [0, 140, 104],
+  [204, 121, 167],
+  [230, 170, 0],
+  [86, 180, 233],
+  [122, 76, 160],
   [90, 60, 30],
-]; // prettier-ignore
+];
 export const insignificantColor: Vector = [150, 150, 150];
 
 /** Dark violet over green to yellow: evenly rising brightness. */
 const shareColors: Vector[] = [
-  [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99],
-  [170, 220, 50], [253, 231, 37],
-]; // prettier-ignore
+  [68, 1, 84],
+  [71, 44, 122],
+  [59, 81, 139],
+  [44, 113, 142],
+  [33, 144, 141],
+  [39, 173, 129],
+  [92, 200, 99],
+  [170, 220, 50],
+  [253, 231, 37],
+];
 
 /** Found and true, found and not true, true and not found, neither. */
 export const truthColors: Record<"hit" | "false" | "missed" | "rest", Vector> = {
@@ -54,7 +67,7 @@ export function coloringsOf(result: Result): { coloring: Coloring; name: string 
   const colorings: { coloring: Coloring; name: string }[] = [{ coloring: "kind", name: "kind" }];
   if (result.clusters) colorings.push({ coloring: "clusters", name: "directions" });
   if (result.truth) colorings.push({ coloring: "truth", name: "agreement with truth" });
-  if (result.rgb) colorings.push({ coloring: "rgb", name: "color of the file" });
+  if (result.rgb) colorings.push({ coloring: "rgb", name: "colour of the file" });
   for (const { name } of result.attributes) colorings.push({ coloring: { attribute: name }, name });
   return colorings;
 }
@@ -68,7 +81,12 @@ export function truthOf(kind: number, truth: number): keyof typeof truthColors {
  * Writes four bytes a point: its colour, and how it is drawn: 0 not at all, 1 as it is, 2 in front (sharp).
  * \param shown whether points of each kind are shown, by number
  */
-export function paint(result: Result, coloring: Coloring, shown: (kind: number) => boolean, out: Uint8Array): void {
+export function paint(
+  result: Result,
+  coloring: Coloring,
+  shown: (kind: number) => boolean,
+  out: Uint8Array,
+): void {
   const drawn = Uint8Array.from({ length: 256 }, (_, kind) =>
     shown(kind) ? (isFeature(kind) || kind === kinds.border ? 2 : 1) : 0,
   );

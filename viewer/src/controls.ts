@@ -21,8 +21,8 @@ interface Pointer {
 }
 
 /**
- * Moves the view by mouse (left: turn, right or middle or with shift: shift, wheel: zoom), touch (one finger: turn,
- * two: shift and zoom) and keyboard (arrows: turn, with shift: shift, + and -: zoom, 0: fit).
+ * Moves the view by mouse (left: turn, right or middle or with shift: shift, wheel: zoom), touch (one finger:
+ * turn, two: shift and zoom) and keyboard (arrows: turn, with shift: shift, + and -: zoom, 0: fit).
  */
 export function attachControls(canvas: HTMLCanvasElement, view: View, onPick: (pick: Pick) => void): void {
   const pointers = new Map<number, Pointer>();

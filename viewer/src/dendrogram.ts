@@ -25,7 +25,13 @@ export function angleAt(canvas: HTMLCanvasElement, y: number, map: GaussMap): nu
 }
 
 /** Which lines become one at which angle, in the colours of the clusters below the cut. */
-export function drawDendrogram(canvas: HTMLCanvasElement, map: GaussMap, cut: Cut, sigmaDeg: number, height: number): void {
+export function drawDendrogram(
+  canvas: HTMLCanvasElement,
+  map: GaussMap,
+  cut: Cut,
+  sigmaDeg: number,
+  height: number,
+): void {
   const width = canvas.clientWidth;
   canvas.style.height = `${height}px`;
   const context = width > 0 ? prepared(canvas, width, height) : null;
@@ -48,7 +54,15 @@ export function drawDendrogram(canvas: HTMLCanvasElement, map: GaussMap, cut: Cu
       context.lineTo(xOf(part.x), yOf(branch.height));
       context.stroke();
       // What hangs from a branch above the cut has the colour of its own cluster below it.
-      drawStem(context, xOf(part.x), yOf(branch.height), yOf(part.height), yOf(sigmaDeg), quiet, css(colorOfCluster(cut.cluster[part.line])));
+      drawStem(
+        context,
+        xOf(part.x),
+        yOf(branch.height),
+        yOf(part.height),
+        yOf(sigmaDeg),
+        quiet,
+        css(colorOfCluster(cut.cluster[part.line])),
+      );
       draw(part);
     }
   };
@@ -56,7 +70,15 @@ export function drawDendrogram(canvas: HTMLCanvasElement, map: GaussMap, cut: Cu
   drawCut(context, Math.max(verticalMargin, yOf(sigmaDeg)), sigmaDeg, width, style);
 }
 
-function drawStem(on: CanvasRenderingContext2D, x: number, from: number, to: number, cut: number, above: string, below: string): void {
+function drawStem(
+  on: CanvasRenderingContext2D,
+  x: number,
+  from: number,
+  to: number,
+  cut: number,
+  above: string,
+  below: string,
+): void {
   const pieces: [number, number, string][] = [
     [from, Math.min(to, Math.max(from, cut)), above],
     [Math.min(to, Math.max(from, cut)), to, below],
@@ -72,7 +94,13 @@ function drawStem(on: CanvasRenderingContext2D, x: number, from: number, to: num
   on.strokeStyle = above;
 }
 
-function drawScale(on: CanvasRenderingContext2D, top: number, yOf: (angle: number) => number, style: CSSStyleDeclaration, width: number): void {
+function drawScale(
+  on: CanvasRenderingContext2D,
+  top: number,
+  yOf: (angle: number) => number,
+  style: CSSStyleDeclaration,
+  width: number,
+): void {
   on.font = `10.5px ${style.fontFamily}`;
   on.fillStyle = style.getPropertyValue("--quiet");
   on.strokeStyle = style.getPropertyValue("--rule");
@@ -87,7 +115,13 @@ function drawScale(on: CanvasRenderingContext2D, top: number, yOf: (angle: numbe
   }
 }
 
-function drawCut(on: CanvasRenderingContext2D, y: number, sigmaDeg: number, width: number, style: CSSStyleDeclaration): void {
+function drawCut(
+  on: CanvasRenderingContext2D,
+  y: number,
+  sigmaDeg: number,
+  width: number,
+  style: CSSStyleDeclaration,
+): void {
   on.strokeStyle = on.fillStyle = style.getPropertyValue("--ink");
   on.setLineDash([4, 3]);
   on.beginPath();
@@ -102,7 +136,12 @@ function drawCut(on: CanvasRenderingContext2D, y: number, sigmaDeg: number, widt
 
 /** The tree, its leaves in the order in which its branches come. */
 function rootsOf(map: GaussMap, count: number): Branch[] {
-  const branches: (Branch | null)[] = Array.from({ length: count }, (_, line) => ({ x: 0, height: 0, line, parts: [] }));
+  const branches: (Branch | null)[] = Array.from({ length: count }, (_, line) => ({
+    x: 0,
+    height: 0,
+    line,
+    parts: [],
+  }));
   for (const { first, second, height } of map.merges) {
     const parts = [branches[first], branches[second]].filter((part) => part !== null);
     branches[first] = { x: 0, height: height / unitsPerDegree, line: first, parts };

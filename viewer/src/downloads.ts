@@ -19,13 +19,19 @@ export function downloadsPanel(result: Result): HTMLElement {
     const lines = element(
       "div",
       { class: "row" },
-      button("Lines, JSON", () => save(new Blob([JSON.stringify(graph)]), `${name}-lines.json`), { id: "save-json" }),
+      button("Lines, JSON", () => save(new Blob([JSON.stringify(graph)]), `${name}-lines.json`), {
+        id: "save-json",
+      }),
       button("Lines, OBJ", () => save(new Blob([linesObj(graph)]), `${name}-lines.obj`), { id: "save-obj" }),
     );
     body.append(lines);
   }
-  const rounding = `Points carry the labels at the σ that is set. Positions are rounded to ${result.facts.cloud.step.toPrecision(2)}; the program's own outputs are exact.`;
-  body.append(element("p", { class: "quiet" }, rounding));
+  const step = result.facts.cloud.step.toPrecision(2);
+  const told = [
+    "Points carry the labels at the σ that is set.",
+    `Positions are rounded to ${step}; what the program itself writes is exact.`,
+  ];
+  body.append(element("p", { class: "quiet" }, told.join(" ")));
   return body;
 }
 
@@ -49,7 +55,7 @@ export function pointsCsv(result: Result): Blob {
     const columns = [...result.coordinates(i), isFeature(result.kind[i]) ? 1 : 0, result.kind[i]];
     if (result.clusters) columns.push(result.clusters[i]);
     piece += `${columns.join(",")}\n`;
-    if (i % 10000 === 9999) pieces.push(piece), (piece = "");
+    if (i % 10000 === 9999) (pieces.push(piece), (piece = ""));
   }
   return new Blob([...pieces, piece], { type: "text/csv" });
 }

@@ -73,7 +73,8 @@ void main() {
   float size = pixelSize * (isPerspective ? depth : 1.0);
   float reach = clamp(1.5 * splatRadius / size, 2.5 * pixelRatio, 14.0 * pixelRatio);
 
-  // The plane that fits what is around best, all lengths in pixels; what is far in front or behind is another surface.
+  // The plane that fits what is around best, all lengths in pixels. What is far in front or behind is another
+  // surface.
   float count = 1.0, hidden = 0.0;
   vec2 sum = vec2(0.0), rises = vec2(0.0);
   vec3 squares = vec3(0.0);
@@ -95,7 +96,8 @@ void main() {
   squares -= vec3(sum.x * sum.x, sum.x * sum.y, sum.y * sum.y) / count;
   rises -= height * sum / count;
   float determinant = squares.x * squares.z - squares.y * squares.y;
-  vec2 slope = determinant > 1e-3 ? vec2(squares.z * rises.x - squares.y * rises.y, squares.x * rises.y - squares.y * rises.x) / determinant : vec2(0.0);
+  vec2 slope = vec2(squares.z * rises.x - squares.y * rises.y, squares.x * rises.y - squares.y * rises.x);
+  slope = determinant > 1e-3 ? slope / determinant : vec2(0.0);
 
   float light = 0.52 + 0.52 * max(0.0, dot(normalize(vec3(-slope, 1.0)), lamp));
   // Behind silhouettes and in crevices it is darker.
@@ -144,7 +146,13 @@ export class EyeDome {
     this.sheet.frustumCulled = false;
   }
 
-  render(renderer: WebGLRenderer, scene: Scene, camera: Camera, splatRadius: number, background: Color): void {
+  render(
+    renderer: WebGLRenderer,
+    scene: Scene,
+    camera: Camera,
+    splatRadius: number,
+    background: Color,
+  ): void {
     const size = renderer.getDrawingBufferSize(new Vector2());
     this.target.setSize(size.x, size.y);
     const u = this.sheet.material.uniforms;

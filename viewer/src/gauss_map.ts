@@ -83,8 +83,8 @@ const f = Math.fround;
 
 /** Abramowitz & Stegun 4.4.46, highest power first: not Math.acos, whose last bit is the browser's own. */
 const arcCosinePolynomial = [
-  -0.0012624911, 0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016,
-  1.5707963050,
+  -0.0012624911, 0.0066700901, -0.0170881256, 0.030891881, -0.0501743046, 0.0889789874, -0.2145988016,
+  1.570796305,
 ].map(f);
 const unitsPerRadian = f(41711.327);
 

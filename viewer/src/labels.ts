@@ -26,7 +26,8 @@ export function spectrumFrom(
   const from = new Uint16Array(kind.length);
   for (let i = 0, rise = 0; i < stepsPerPoint.length; ++i) {
     offsets[i + 1] = offsets[i] + stepsPerPoint[i];
-    for (let step = offsets[i] + 1; step < offsets[i + 1]; ++step) from[step] = from[step - 1] + rises[rise++];
+    for (let step = offsets[i] + 1; step < offsets[i + 1]; ++step)
+      from[step] = from[step - 1] + rises[rise++];
   }
   return { offsets, from, kind, clusters };
 }
@@ -37,8 +38,8 @@ export function sensitivityOf(sigmaDeg: number): number {
 }
 
 /**
- * The sensitivity of one point by persistence: its kind stays the same over the widest range there, as a ratio, between
- * 8 and 45 degrees; of equally wide ranges the higher one. Mirrors the program's local_sensitivity().
+ * The sensitivity of one point by persistence: its kind stays the same over the widest range there, as a ratio,
+ * between 8 and 45 degrees; of equally wide ranges the higher one. Mirrors the program's local_sensitivity().
  */
 export function localSensitivity({ offsets, from, kind }: Spectrum, point: number): number {
   const lowest = sensitivityOf(8);
@@ -65,7 +66,12 @@ export function localSensitivity({ offsets, from, kind }: Spectrum, point: numbe
 }
 
 /** Writes the labels at a sensitivity. */
-export function relabel(spectrum: Spectrum, sensitivity: number, kind: Uint8Array, clusters: Uint8Array): void {
+export function relabel(
+  spectrum: Spectrum,
+  sensitivity: number,
+  kind: Uint8Array,
+  clusters: Uint8Array,
+): void {
   const { offsets, from } = spectrum;
   for (let i = 0; i < kind.length; ++i) {
     let step = offsets[i];
@@ -76,7 +82,7 @@ export function relabel(spectrum: Spectrum, sensitivity: number, kind: Uint8Arra
   }
 }
 
-/** How many points of the whole cloud are of each kind: at every sensitivity, or as the program labelled them. */
+/** How many points of the whole cloud are of each kind, at every sensitivity. */
 export class KindCounts {
   /** \param table a row per sensitivity, a column per kind in the order of `numbers` */
   constructor(

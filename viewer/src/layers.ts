@@ -75,7 +75,9 @@ function legendOf(model: Model): Node[] {
   const { result, coloring } = model;
   if (coloring === "kind") {
     const counts = result.countOfKinds();
-    const present = result.facts.kinds.filter(({ number }) => (counts.get(number) ?? 0) > 0 && !model.hidden.has(number));
+    const present = result.facts.kinds.filter(
+      ({ number }) => (counts.get(number) ?? 0) > 0 && !model.hidden.has(number),
+    );
     return present.length > 0 ? [keys(present.map(({ name, color }) => [name, fromHex(color)]))] : [];
   }
   if (coloring === "truth" && result.truth) return [truthLegend(result.kind, result.truth)];
@@ -116,6 +118,11 @@ function scale(low: number, high: number): HTMLElement[] {
     context.fillStyle = css(colorOfShare(x / (width - 1)));
     context.fillRect(x, 0, 1, 9);
   }
-  const ends = element("div", { class: "ends" }, element("span", {}, rounded(low)), element("span", {}, rounded(high)));
+  const ends = element(
+    "div",
+    { class: "ends" },
+    element("span", {}, rounded(low)),
+    element("span", {}, rounded(high)),
+  );
   return [canvas, ends];
 }

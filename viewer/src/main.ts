@@ -1,5 +1,5 @@
 import { Color } from "three";
-import { fitted } from "./camera";
+import { facing, fitted } from "./camera";
 import { paint } from "./colors";
 import { attachControls, type Pick } from "./controls";
 import { readEmbedded } from "./data";
@@ -43,7 +43,11 @@ class Page {
     this.space = new Space(result.facts, result.position);
     this.measure = new Measure(result);
     this.stage = this.openStage();
-    this.point = new PointPanel(this.model, () => this.stage?.pose ?? standardPose, () => this.findPoint());
+    this.point = new PointPanel(
+      this.model,
+      () => this.stage?.pose ?? standardPose,
+      () => this.findPoint(),
+    );
     this.fillHeader();
     this.fillPanel();
     attachLegend(this.model, byId("legend"));
@@ -59,7 +63,9 @@ class Page {
       return new Stage(canvas, this.space, this.splatRadius(), () => this.afterDrawing());
     } catch {
       canvas.hidden = true;
-      byId("absent").append("This browser offers no WebGL 2, so the cloud cannot be drawn. Everything else works.");
+      byId("absent").append(
+        "This browser offers no WebGL 2, so the cloud cannot be drawn. Everything else works.",
+      );
       return null;
     }
   }
@@ -127,7 +133,12 @@ class Page {
     add("layers", "Layers", layersPanel(this.model));
     add("coloring", "Colour by", coloringPanel(this.model));
     add("point", facts.method === "gauss" ? "Gauss map of a point" : "Point", this.point.element);
-    if (facts.graph) add("line-table", "Lines", linesPanel(this.model, (line) => this.findLine(line)));
+    if (facts.graph)
+      add(
+        "line-table",
+        "Lines",
+        linesPanel(this.model, (line) => this.findLine(line)),
+      );
     add("facts", "Facts", factsPanel(facts), false);
     add("downloads", "Download", downloadsPanel(this.result), false);
   }
@@ -159,7 +170,11 @@ class Page {
     const strokes = (graph?.polylines ?? []).map((line, number): Stroke => {
       const isChosen = number === this.model.line;
       const color = isChosen ? markColor : line.kind === "border" ? borderColor : crease;
-      return { path: pathOf(line).map((vertex) => this.space.ofPosition(vertex)), color, width: isChosen ? 2.4 : 1 };
+      return {
+        path: pathOf(line).map((vertex) => this.space.ofPosition(vertex)),
+        color,
+        width: isChosen ? 2.4 : 1,
+      };
     });
     stage.lines.set(strokes);
     stage.requestPicture();
@@ -199,7 +214,14 @@ class Page {
     const isShown = (i: number) => stage.cloud.paint[4 * i + 3] > 0;
     const thickness = 3 * this.splatRadius();
     const nearest = (tolerance: number) =>
-      pickPoint(stage.cloud.positions, stage.projection(), screen, { ...pick, tolerance }, thickness, isShown);
+      pickPoint(
+        stage.cloud.positions,
+        stage.projection(),
+        screen,
+        { ...pick, tolerance },
+        thickness,
+        isShown,
+      );
     const hit = nearest(Math.max(pick.tolerance, stage.splatPixels()));
     return hit >= 0 ? hit : nearest(4 * pick.tolerance);
   }
@@ -215,7 +237,9 @@ class Page {
     const measured = byId("measured");
     const isMeasured = this.measure.points.length === 2;
     const [a, b] = this.measure.points.map((p) => this.space.ofPoint(p));
-    const place = isMeasured ? this.stage?.placeOf([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2]) : null;
+    const place = isMeasured
+      ? this.stage?.placeOf([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2])
+      : null;
     measured.hidden = !place;
     if (!place) return;
     measured.textContent = rounded(this.measure.length());
@@ -226,13 +250,21 @@ class Page {
   private findPoint(): void {
     const { point, neighbors } = this.model;
     if (point < 0) return;
-    this.show([point, ...neighbors].map((p) => this.space.ofPoint(p)), 8);
+    // From outside: a point of the far side would be behind the near one.
+    if (this.stage) this.stage.setPose(facing(this.stage.pose, this.space.ofPoint(point)));
+    this.show(
+      [point, ...neighbors].map((p) => this.space.ofPoint(p)),
+      8,
+    );
   }
 
   private findLine(line: number): void {
     this.model.chooseLine(line);
     const vertices = this.result.facts.graph?.polylines[line]?.vertices ?? [];
-    this.show(vertices.map((vertex) => this.space.ofPosition(vertex)), 1.6);
+    this.show(
+      vertices.map((vertex) => this.space.ofPosition(vertex)),
+      1.6,
+    );
   }
 
   /** Moves to some positions, with so many times the room that they need. */
@@ -256,7 +288,8 @@ class Page {
     const { model, result } = this;
     const link = linkText({
       pose: stage.pose,
-      sigmaDeg: result.sigmaDeg !== result.facts.sigma_deg && result.sigmaDeg !== null ? result.sigmaDeg : undefined,
+      sigmaDeg:
+        result.sigmaDeg !== result.facts.sigma_deg && result.sigmaDeg !== null ? result.sigmaDeg : undefined,
       coloring: model.coloring,
       hidden: [...model.hidden],
       showsLines: model.showsLines,
@@ -282,7 +315,8 @@ class Page {
     const { model } = this;
     if (view.sigmaDeg !== undefined) model.setSigma(view.sigmaDeg);
     if (view.coloring) model.setColoring(view.coloring);
-    if (view.hidden) for (const { number } of this.result.facts.kinds) model.show(number, !view.hidden.includes(number));
+    if (view.hidden)
+      for (const { number } of this.result.facts.kinds) model.show(number, !view.hidden.includes(number));
     if (view.showsLines !== undefined) model.showLines(view.showsLines);
     if (view.pointNumber !== undefined) model.choosePoint(this.result.pointOfNumber(view.pointNumber));
     if (view.pose) this.stage?.setPose(view.pose);

@@ -61,7 +61,8 @@ export class NeighborSearch {
   private roomInCell(point: number): number {
     let room = Infinity;
     for (let axis = 0; axis < 3; ++axis) {
-      const within = this.coordinates[3 * point + axis] - this.low[axis] - this.place(point, axis) * this.side;
+      const within =
+        this.coordinates[3 * point + axis] - this.low[axis] - this.place(point, axis) * this.side;
       room = Math.min(room, within, this.side - within);
     }
     return Math.max(0, room);
@@ -75,7 +76,8 @@ export class NeighborSearch {
       for (let y = from[1]; y <= to[1]; ++y) {
         const onShell = Math.abs(z - center[2]) === ring || Math.abs(y - center[1]) === ring;
         for (let x = from[0]; x <= to[0]; ++x) {
-          if (onShell || Math.abs(x - center[0]) === ring) this.visitCell(point, this.cellAt(x, y, z), nearest);
+          if (onShell || Math.abs(x - center[0]) === ring)
+            this.visitCell(point, this.cellAt(x, y, z), nearest);
         }
       }
     }

@@ -6,8 +6,8 @@ export interface Screen {
 }
 
 /**
- * The point that a click means: of those within `tolerance` pixels the foremost, or one little behind it and nearer to
- * the click; -1 where there is none.
+ * The point that a click means: of those within `tolerance` pixels the foremost, or one little behind it and
+ * nearer to the click; -1 where there is none.
  * \param isShown whether a point can be seen
  * \param thickness how far behind the foremost point others are still on the same side
  */

@@ -20,9 +20,19 @@ export class PointPanel {
   private readonly clusters = element("p", { class: "quiet", id: "point-clusters" });
   private readonly facts = element("dl");
   private readonly sphere = element("canvas", { role: "img", "aria-label": "Gauss map on the unit sphere" });
-  private readonly dendrogram = element("canvas", { class: "dendrogram", role: "img", "aria-label": "Dendrogram of the lines" });
+  private readonly dendrogram = element("canvas", {
+    class: "dendrogram",
+    role: "img",
+    "aria-label": "Dendrogram of the lines",
+  });
   private readonly maps = element("div", { class: "maps" }, this.sphere, this.dendrogram);
-  private readonly number = element("input", { type: "number", min: "0", step: "1", id: "point-number", "aria-label": "Number of a point in the file" });
+  private readonly number = element("input", {
+    type: "number",
+    min: "0",
+    step: "1",
+    id: "point-number",
+    "aria-label": "Number of a point in the file",
+  });
   private readonly isGauss: boolean;
   private map: GaussMap | null = null;
   private isWaiting = false;
@@ -34,7 +44,9 @@ export class PointPanel {
     onFind: () => void,
   ) {
     this.isGauss = model.result.facts.method === "gauss";
-    this.number.addEventListener("change", () => this.model.choosePoint(this.model.result.pointOfNumber(this.number.valueAsNumber)));
+    this.number.addEventListener("change", () =>
+      this.model.choosePoint(this.model.result.pointOfNumber(this.number.valueAsNumber)),
+    );
     const find = button("Find", onFind, { id: "point-find" });
     const clear = button("Clear", () => this.model.choosePoint(-1));
     this.element = element(
@@ -44,7 +56,14 @@ export class PointPanel {
       this.maps,
       this.clusters,
       this.facts,
-      element("div", { class: "row" }, element("label", { for: "point-number", class: "quiet" }, "Point"), this.number, find, clear),
+      element(
+        "div",
+        { class: "row" },
+        element("label", { for: "point-number", class: "quiet" }, "Point"),
+        this.number,
+        find,
+        clear,
+      ),
     );
     this.attachDragging();
     model.on(["point"], () => this.choose());
@@ -79,25 +98,40 @@ export class PointPanel {
     this.facts.hidden = !isChosen;
     this.clusters.hidden = !isChosen || !this.isGauss;
     if (!isChosen) {
-      this.told.textContent = `Click a point of the cloud to see what ${this.isGauss ? "the method sees there" : "is known of it"}.`;
+      const what = this.isGauss ? "what the method sees there" : "what is known of it";
+      this.told.textContent = `Click a point of the cloud to see ${what}.`;
       return;
     }
     this.number.value = `${result.numberInFile(point)}`;
-    this.told.textContent = `Point ${grouped(result.numberInFile(point))}: ${nameOfKind(result, result.kind[point])}`;
+    const number = grouped(result.numberInFile(point));
+    this.told.textContent = `Point ${number}: ${nameOfKind(result, result.kind[point])}`;
     const sizes = this.map ? this.cutNow(this.map).sizes : [];
     this.clusters.replaceChildren(
       ...(this.map
         ? clusterWords(sizes, this.map)
-        : [neighbors.length > mostNeighbors ? "Too many neighbours to show here." : "Too few neighbours to decide."]),
+        : [
+            neighbors.length > mostNeighbors
+              ? "Too many neighbours to show here."
+              : "Too few neighbours to decide.",
+          ]),
     );
     this.facts.replaceChildren(...this.factsOf(result, point));
     this.redraw();
   }
 
   private factsOf(result: Result, point: number): HTMLElement[] {
-    const rows: [string, string][] = [["position", result.coordinates(point).map((c) => positionText(c)).join(", ")]];
+    const rows: [string, string][] = [
+      [
+        "position",
+        result
+          .coordinates(point)
+          .map((c) => positionText(c))
+          .join(", "),
+      ],
+    ];
     const { kept } = result.facts.cloud;
-    if (kept < result.facts.input.finite_points) rows.push(["seen among", `the ${grouped(kept)} points shown; the program saw all`]);
+    if (kept < result.facts.input.finite_points)
+      rows.push(["seen among", `the ${grouped(kept)} points shown; the program saw all`]);
     for (const attribute of result.attributes) rows.push([attribute.name, rounded(attribute.value(point))]);
     if (result.clusters) rows.push(["directions", `${result.clusters[point]}`]);
     if (result.truth) rows.push(["truth", nameOfKind(result, result.truth[point])]);
@@ -122,7 +156,9 @@ export class PointPanel {
   private attachDragging(): void {
     const follow = (event: PointerEvent) => {
       if (!this.map) return;
-      this.model.setSigma(angleAt(this.dendrogram, event.clientY - this.dendrogram.getBoundingClientRect().top, this.map));
+      this.model.setSigma(
+        angleAt(this.dendrogram, event.clientY - this.dendrogram.getBoundingClientRect().top, this.map),
+      );
     };
     this.dendrogram.addEventListener("pointerdown", (event) => {
       this.dendrogram.setPointerCapture(event.pointerId);
@@ -136,7 +172,10 @@ export class PointPanel {
 
 function optionsOf({ facts }: Result) {
   const minSine = facts.options["min-sine"];
-  return { minSine: typeof minSine === "number" ? minSine : 0.001, minCluster: wholeOption(facts, "min-cluster") };
+  return {
+    minSine: typeof minSine === "number" ? minSine : 0.001,
+    minCluster: wholeOption(facts, "min-cluster"),
+  };
 }
 
 function nameOfKind(result: Result, number: number): string {
@@ -144,7 +183,8 @@ function nameOfKind(result: Result, number: number): string {
 }
 
 function clusterWords(sizes: number[], { lines, minCluster }: GaussMap): Node[] {
-  const words = `${sizes.length} cluster${sizes.length === 1 ? "" : "s"} of at least ${minCluster} of ${lines.length / 3} lines`;
+  const clusters = `${sizes.length} cluster${sizes.length === 1 ? "" : "s"}`;
+  const words = `${clusters} of at least ${minCluster} of ${lines.length / 3} lines`;
   const keys = sizes.map((size, place) => {
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = css(colorOfCluster(place));

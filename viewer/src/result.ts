@@ -1,7 +1,15 @@
 import { unfolded, type Columns } from "./data";
 import { wholeOption, type Facts } from "./facts";
 import { unitsPerDegree } from "./gauss_map";
-import { KindCounts, kinds, localSensitivity, relabel, sensitivityOf, spectrumFrom, type Spectrum } from "./labels";
+import {
+  KindCounts,
+  kinds,
+  localSensitivity,
+  relabel,
+  sensitivityOf,
+  spectrumFrom,
+  type Spectrum,
+} from "./labels";
 import { NeighborSearch, type Coordinates } from "./neighborhood";
 
 /** A number per point that the cloud can be coloured by. */
@@ -47,7 +55,12 @@ export class Result {
     this.index = this.column("index", Uint32Array);
     this.spectrum = this.readSpectrum();
     const table = this.column("counts", Uint32Array);
-    this.counts = table && new KindCounts(table, facts.kinds.map((kind) => kind.number));
+    this.counts =
+      table &&
+      new KindCounts(
+        table,
+        facts.kinds.map((kind) => kind.number),
+      );
     this.attributes = this.readAttributes();
     this.sigmaDeg = facts.sigma_deg;
   }
@@ -119,7 +132,10 @@ export class Result {
     return this.seenCoordinates;
   }
 
-  private column<T extends abstract new (...args: never[]) => unknown>(name: string, type: T): InstanceType<T> | null {
+  private column<T extends abstract new (...args: never[]) => unknown>(
+    name: string,
+    type: T,
+  ): InstanceType<T> | null {
     const found = this.columns.get(name);
     return found instanceof type ? (found as InstanceType<T>) : null;
   }

@@ -15,15 +15,27 @@ export function sensitivityPanel(model: Model): HTMLElement {
   const features = element("span", { id: "sharp-count" });
   const plot = element("canvas", { class: "plot", "aria-hidden": "true" });
   const slider = element("input", {
-    id: "sigma-slider", class: "slider", type: "range", min: `${lowest}`, max: `${highest}`, step: "0.25",
+    id: "sigma-slider",
+    class: "slider",
+    type: "range",
+    min: `${lowest}`,
+    max: `${highest}`,
+    step: "0.25",
     "aria-label": "Sensitivity σ in degrees",
-  }); // prettier-ignore
+  });
   const exact = element("input", {
-    id: "sigma-exact", type: "number", min: "0", max: `${highest}`, step: "any",
+    id: "sigma-exact",
+    type: "number",
+    min: "0",
+    max: `${highest}`,
+    step: "any",
     "aria-label": "Sensitivity σ in degrees, exactly",
-  }); // prettier-ignore
+  });
   const back = button("", () => model.setSigma(null), { id: "sigma-back" });
-  back.textContent = result.facts.sigma_deg === null ? "As detected: σ per point" : `As detected: ${rounded(result.facts.sigma_deg)}°`;
+  back.textContent =
+    result.facts.sigma_deg === null
+      ? "As detected: σ per point"
+      : `As detected: ${rounded(result.facts.sigma_deg)}°`;
 
   slider.addEventListener("input", () => model.setSigma(slider.valueAsNumber));
   exact.addEventListener("change", () => model.setSigma(exact.valueAsNumber));
@@ -119,11 +131,25 @@ function drawPlot(canvas: HTMLCanvasElement, { result }: Model): void {
 
   if (result.facts.sigma_deg !== null) {
     const isAutomatic = result.facts.sigma_rule === "auto";
-    drawMark(context, xOf(result.facts.sigma_deg), quiet, [3, 3], isAutomatic ? "automatic" : "as detected", width);
+    drawMark(
+      context,
+      xOf(result.facts.sigma_deg),
+      quiet,
+      [3, 3],
+      isAutomatic ? "automatic" : "as detected",
+      width,
+    );
   }
   if (result.sigmaDeg !== null) drawMark(context, xOf(result.sigmaDeg), ink, [], "", width);
 
-  function drawMark(on: CanvasRenderingContext2D, x: number, color: string, dash: number[], name: string, room: number): void {
+  function drawMark(
+    on: CanvasRenderingContext2D,
+    x: number,
+    color: string,
+    dash: number[],
+    name: string,
+    room: number,
+  ): void {
     on.strokeStyle = on.fillStyle = color;
     on.setLineDash(dash);
     on.beginPath();
@@ -136,7 +162,13 @@ function drawPlot(canvas: HTMLCanvasElement, { result }: Model): void {
   }
 }
 
-function fillBand(on: CanvasRenderingContext2D, kind: KindFacts, xs: number[], below: number[], above: number[]): void {
+function fillBand(
+  on: CanvasRenderingContext2D,
+  kind: KindFacts,
+  xs: number[],
+  below: number[],
+  above: number[],
+): void {
   on.fillStyle = kind.color;
   on.beginPath();
   xs.forEach((x, i) => on.lineTo(x, above[i]));

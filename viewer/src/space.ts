@@ -1,8 +1,8 @@
 import type { Facts, Vector } from "./facts";
 
 /**
- * Where things are drawn: the cloud's box has its middle in the origin and its longest side is 2, whatever the cloud's
- * own scale and place. Graphics cards compute in single precision; the cloud's coordinates need not fit.
+ * Where things are drawn: the cloud's box has its middle in the origin and its longest side is 2, whatever the
+ * cloud's own scale and place. Graphics cards compute in single precision; the cloud's coordinates need not fit.
  */
 export class Space {
   private readonly stepsPerUnit: number;

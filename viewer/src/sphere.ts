@@ -26,8 +26,20 @@ export function drawSphere(canvas: HTMLCanvasElement, map: GaussMap, cut: Cut, a
   drawNames(context, axes, size / 2, radius, style);
 }
 
-function drawBall(on: CanvasRenderingContext2D, middle: number, radius: number, style: CSSStyleDeclaration): void {
-  const light = on.createRadialGradient(middle - 0.35 * radius, middle - 0.45 * radius, 0, middle, middle, radius);
+function drawBall(
+  on: CanvasRenderingContext2D,
+  middle: number,
+  radius: number,
+  style: CSSStyleDeclaration,
+): void {
+  const light = on.createRadialGradient(
+    middle - 0.35 * radius,
+    middle - 0.45 * radius,
+    0,
+    middle,
+    middle,
+    radius,
+  );
   light.addColorStop(0, style.getPropertyValue("--raised"));
   light.addColorStop(1, style.getPropertyValue("--stage"));
   on.fillStyle = light;
@@ -41,7 +53,13 @@ function drawBall(on: CanvasRenderingContext2D, middle: number, radius: number, 
 type Place = (direction: Vector) => { x: number; y: number };
 
 /** The circles of the coordinate planes, on one half of the sphere. */
-function drawPlanes(on: CanvasRenderingContext2D, axes: Axes, place: Place, isFront: boolean, color: string): void {
+function drawPlanes(
+  on: CanvasRenderingContext2D,
+  axes: Axes,
+  place: Place,
+  isFront: boolean,
+  color: string,
+): void {
   on.strokeStyle = color;
   on.globalAlpha = isFront ? 0.45 : 0.15;
   for (let normal = 0; normal < 3; ++normal) {
@@ -65,8 +83,14 @@ function drawPlanes(on: CanvasRenderingContext2D, axes: Axes, place: Place, isFr
 
 /** Every line is seen at both its ends, one of which faces the viewer. Several in one place are a larger dot. */
 function drawLines(
-  on: CanvasRenderingContext2D, map: GaussMap, cut: Cut, axes: Axes, place: Place, isFront: boolean, size: number,
-): void { // prettier-ignore
+  on: CanvasRenderingContext2D,
+  map: GaussMap,
+  cut: Cut,
+  axes: Axes,
+  place: Place,
+  isFront: boolean,
+  size: number,
+): void {
   const dots = new Map<string, { x: number; y: number; cluster: number; count: number }>();
   cut.cluster.forEach((cluster, i) => {
     const line: Vector = [map.lines[3 * i], map.lines[3 * i + 1], map.lines[3 * i + 2]];
@@ -87,7 +111,13 @@ function drawLines(
 }
 
 /** At the ends of the coordinate axes that face the viewer. */
-function drawNames(on: CanvasRenderingContext2D, axes: Axes, middle: number, radius: number, style: CSSStyleDeclaration): void {
+function drawNames(
+  on: CanvasRenderingContext2D,
+  axes: Axes,
+  middle: number,
+  radius: number,
+  style: CSSStyleDeclaration,
+): void {
   on.font = `10.5px ${style.fontFamily}`;
   on.fillStyle = style.getPropertyValue("--quiet");
   on.textAlign = "center";

@@ -168,7 +168,10 @@ export class Stage implements View {
   private reach(): number {
     const { low, high } = this.space;
     const farthest = [0, 1, 2].map((axis) =>
-      Math.max(Math.abs(low[axis] - this.currentPose.target[axis]), Math.abs(high[axis] - this.currentPose.target[axis])),
+      Math.max(
+        Math.abs(low[axis] - this.currentPose.target[axis]),
+        Math.abs(high[axis] - this.currentPose.target[axis]),
+      ),
     );
     return 1.05 * Math.hypot(...farthest) + 0.01;
   }

@@ -73,7 +73,12 @@ export class Strokes {
       vertexShader,
       fragmentShader,
       side: DoubleSide,
-      uniforms: { screen: { value: new Vector2(1, 1) }, width: { value: 2 }, nudge: { value: nudge }, alpha: { value: alpha } },
+      uniforms: {
+        screen: { value: new Vector2(1, 1) },
+        width: { value: 2 },
+        nudge: { value: nudge },
+        alpha: { value: alpha },
+      },
     });
     this.object = new Mesh(new BufferGeometry(), material);
     this.object.frustumCulled = false;

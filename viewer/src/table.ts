@@ -7,7 +7,11 @@ type Key = "number" | "kind" | "length" | "dihedral_deg" | "closed" | "support";
 const columns: { key: Key; name: string; text: (line: LineFacts) => string }[] = [
   { key: "number", name: "line", text: (line) => `${line.number}` },
   { key: "length", name: "length", text: (line) => rounded(line.length) },
-  { key: "dihedral_deg", name: "angle", text: (line) => (line.dihedral_deg === null ? "–" : `${Math.round(line.dihedral_deg)}°`) },
+  {
+    key: "dihedral_deg",
+    name: "angle",
+    text: (line) => (line.dihedral_deg === null ? "–" : `${Math.round(line.dihedral_deg)}°`),
+  },
   { key: "kind", name: "kind", text: (line) => line.kind },
   { key: "closed", name: "closed", text: (line) => (line.closed ? "yes" : "no") },
   { key: "support", name: "points", text: (line) => (line.support === null ? "–" : grouped(line.support)) },
@@ -47,9 +51,19 @@ export function linesPanel(model: Model, onFind: (line: number) => void): HTMLEl
 
   model.on(["line"], mark);
   fill();
-  const table = element("table", { id: "lines" }, element("thead", {}, element("tr", {}, ...heads.map(({ cell }) => cell))), rows);
-  const body = element("div", { class: "body" }, element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Lines" }, table));
-  if (lines.length > mostRows) body.append(element("p", { class: "quiet" }, `The first ${mostRows} of ${grouped(lines.length)} lines.`));
+  const table = element(
+    "table",
+    { id: "lines" },
+    element("thead", {}, element("tr", {}, ...heads.map(({ cell }) => cell))),
+    rows,
+  );
+  const body = element(
+    "div",
+    { class: "body" },
+    element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Lines" }, table),
+  );
+  if (lines.length > mostRows)
+    body.append(element("p", { class: "quiet" }, `The first ${mostRows} of ${grouped(lines.length)} lines.`));
   return body;
 }
 

@@ -18,7 +18,11 @@ export interface ToolActions {
 }
 
 /** The buttons above the cloud. The one that measures is returned: it shows whether it is on. */
-export function fillToolbar(place: HTMLElement, stage: Stage, actions: ToolActions): { measure: HTMLButtonElement } {
+export function fillToolbar(
+  place: HTMLElement,
+  stage: Stage,
+  actions: ToolActions,
+): { measure: HTMLButtonElement } {
   const group = (...buttons: HTMLElement[]) => element("div", { class: "group" }, ...buttons);
   const projection = button("Parallel", () => {
     stage.setPose({ ...stage.pose, isPerspective: !stage.pose.isPerspective });
@@ -27,14 +31,25 @@ export function fillToolbar(place: HTMLElement, stage: Stage, actions: ToolActio
   projection.setAttribute("aria-pressed", "false");
   const measure = button("Measure", actions.measure, { id: "measure", "aria-pressed": "false" });
   place.append(
-    group(button("Fit", () => stage.fit(), { id: "fit" }), button("Home", actions.home), projection),
+    group(
+      button("Fit", () => stage.fit(), { id: "fit" }),
+      button("Home", actions.home),
+      projection,
+    ),
     group(...views.map((view) => viewButton(view, stage))),
-    group(measure, button("Picture", actions.picture, { id: "picture" }), button("Link", actions.link, { id: "link" })),
+    group(
+      measure,
+      button("Picture", actions.picture, { id: "picture" }),
+      button("Link", actions.link, { id: "link" }),
+    ),
   );
   return { measure };
 }
 
-function viewButton({ name, told, azimuthDeg, elevationDeg }: (typeof views)[number], stage: Stage): HTMLButtonElement {
+function viewButton(
+  { name, told, azimuthDeg, elevationDeg }: (typeof views)[number],
+  stage: Stage,
+): HTMLButtonElement {
   const show = () => {
     stage.setPose({ ...stage.pose, azimuthDeg, elevationDeg });
     stage.fit();

@@ -16,7 +16,10 @@ export function linkText(view: LinkedView): string {
   const words = new URLSearchParams();
   if (view.pose) {
     const { target, height, azimuthDeg, elevationDeg, isPerspective } = view.pose;
-    words.set("view", [azimuthDeg, elevationDeg, height, ...target].map((n) => Number(n.toPrecision(7))).join(","));
+    words.set(
+      "view",
+      [azimuthDeg, elevationDeg, height, ...target].map((n) => Number(n.toPrecision(7))).join(","),
+    );
     if (!isPerspective) words.set("parallel", "1");
   }
   if (view.sigmaDeg !== undefined) words.set("sigma", `${view.sigmaDeg}`);
@@ -35,7 +38,13 @@ export function parseLink(text: string): LinkedView {
   const [azimuthDeg, elevationDeg, height, x, y, z] = numbers(words.get("view"));
   const isPose = [azimuthDeg, elevationDeg, height, x, y, z].every(Number.isFinite) && height > 0;
   if (isPose && Math.abs(elevationDeg) <= 90) {
-    view.pose = { azimuthDeg, elevationDeg, height, target: [x, y, z], isPerspective: !words.has("parallel") };
+    view.pose = {
+      azimuthDeg,
+      elevationDeg,
+      height,
+      target: [x, y, z],
+      isPerspective: !words.has("parallel"),
+    };
   }
   const sigma = Number(words.get("sigma") ?? NaN);
   if (sigma > 0 && sigma <= 90) view.sigmaDeg = sigma;

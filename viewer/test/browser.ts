@@ -1,7 +1,7 @@
 import { existsSync } from "node:fs";
 import { mkdtemp, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 
@@ -9,14 +9,20 @@ declare const VIEWER: string; // the folder of package.json, put in when tests a
 
 /** The page without a result: what is built, or what KEENLINE_PAGE names. */
 export const pagePath = process.env.KEENLINE_PAGE ?? join(VIEWER, "dist/report.html");
-export const program = process.env.KEENLINE;
+export const program = process.env.KEENLINE && resolve(process.env.KEENLINE);
 
-const chromiumPath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const chromiumPath =
+  process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 
 export function launch(more: string[] = []): Promise<Browser> {
   if (!chromiumPath) throw new Error("no chromium: install Debian's, or name one in CHROMIUM");
   // Software rendering everywhere; no sandbox, because containers have none to offer.
-  const args = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+  const args = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+  ];
   return chromium.launch({ executablePath: chromiumPath, args: [...args, ...more] });
 }
 
@@ -27,7 +33,12 @@ export interface OpenPage {
 }
 
 /** Opens a file as a person does, from the disk, and waits until it is drawn. */
-export async function openPage(browser: Browser, path: string, options: BrowserContextOptions = {}, hash = ""): Promise<OpenPage> {
+export async function openPage(
+  browser: Browser,
+  path: string,
+  options: BrowserContextOptions = {},
+  hash = "",
+): Promise<OpenPage> {
   const context = await browser.newContext({ viewport: { width: 1100, height: 760 }, ...options });
   const page = await context.newPage();
   const errors: string[] = [];
@@ -35,7 +46,11 @@ export async function openPage(browser: Browser, path: string, options: BrowserC
   const address = pathToFileURL(path).href + hash;
   page.on("console", (message) => {
     // The driver of software rendering comments on reading pixels back.
-    if (message.type() === "error" || (message.type() === "warning" && !message.text().includes("GL Driver Message"))) errors.push(message.text());
+    if (
+      message.type() === "error" ||
+      (message.type() === "warning" && !message.text().includes("GL Driver Message"))
+    )
+      errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("request", (request) => {
@@ -60,7 +75,9 @@ export async function sharpCount(page: Page): Promise<number> {
 
 /** Counts of the layers by name. */
 export async function layerCounts(page: Page): Promise<Record<string, number>> {
-  const rows = await page.$$eval(".layers label", (labels) => labels.map((l) => [l.children[2].textContent, l.children[3].textContent]));
+  const rows = await page.$$eval(".layers label", (labels) =>
+    labels.map((l) => [l.children[2].textContent, l.children[3].textContent]),
+  );
   return Object.fromEntries(rows.map(([name, count]) => [name, Number(count!.replace(/,/g, ""))]));
 }
 

@@ -22,14 +22,24 @@ test("every type, coding and number of components comes back", () => {
 });
 
 test("the layout is the documented one", () => {
-  const delta = { name: "d", type: "uint16", components: 2, count: 2, coding: "delta", offset: 1, bytes: 8 } as const;
+  const delta = {
+    name: "d",
+    type: "uint16",
+    components: 2,
+    count: 2,
+    coding: "delta",
+    offset: 1,
+    bytes: 8,
+  } as const;
   // Component 0: 5, then -3 (folded 10, 5); component 1: 256, then +1 (folded 512, 2). Low bytes before high ones.
   const bytes = Uint8Array.of(99, 10, 5, 0, 0, 0, 2, 2, 0);
   assert.deepEqual(decodeColumns([delta], bytes).get("d"), Uint16Array.of(5, 256, 2, 257));
 });
 
 test("columns of no points are empty", () => {
-  const { buffers, bytes } = encodeColumns([{ name: "position", values: new Uint32Array(0), components: 3, coding: "delta" }]);
+  const { buffers, bytes } = encodeColumns([
+    { name: "position", values: new Uint32Array(0), components: 3, coding: "delta" },
+  ]);
   assert.equal(decodeColumns(buffers, bytes).get("position")?.length, 0);
 });
 

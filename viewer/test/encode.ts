@@ -18,8 +18,19 @@ export function encodeColumns(columns: Column[]): { buffers: BufferFacts[]; byte
   for (const { name, values, components = 1, coding = "raw" } of columns) {
     const size = values.BYTES_PER_ELEMENT as 1 | 2 | 4;
     const type = `uint${8 * size}` as BufferFacts["type"];
-    const part = coding === "raw" ? Buffer.from(values.buffer, values.byteOffset, values.byteLength) : planes(values, components, coding);
-    buffers.push({ name, type, components, count: values.length / components, coding, offset, bytes: part.length });
+    const part =
+      coding === "raw"
+        ? Buffer.from(values.buffer, values.byteOffset, values.byteLength)
+        : planes(values, components, coding);
+    buffers.push({
+      name,
+      type,
+      components,
+      count: values.length / components,
+      coding,
+      offset,
+      bytes: part.length,
+    });
     parts.push(part);
     offset += part.length;
   }
@@ -32,8 +43,12 @@ function planes(values: Numbers, components: number, coding: "planes" | "delta")
   const bytes: number[] = [];
   for (let c = 0; c < components; ++c) {
     const words = [...values].filter((_, i) => i % components === c).map(BigInt);
-    const coded = coding === "planes" ? words : words.map((word, i) => folded(word - (i === 0 ? 0n : words[i - 1]), bits));
-    for (let b = 0; b < size; ++b) for (const word of coded) bytes.push(Number((word >> BigInt(8 * b)) & 255n));
+    const coded =
+      coding === "planes"
+        ? words
+        : words.map((word, i) => folded(word - (i === 0 ? 0n : words[i - 1]), bits));
+    for (let b = 0; b < size; ++b)
+      for (const word of coded) bytes.push(Number((word >> BigInt(8 * b)) & 255n));
   }
   return Buffer.from(bytes);
 }

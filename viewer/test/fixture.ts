@@ -14,14 +14,33 @@ export const kindFacts: Facts["kinds"] = [
 /** Facts of a cloud without anything special. */
 export function factsOf(points: number): Omit<Facts, "buffers"> {
   return {
-    format: "keenline report", version: 1, title: "fixture.ply", program: "keenline test", command: "detect", method: "gauss",
-    input: { name: "fixture.ply", path: "fixture.ply", format: "ply", encoding: "ascii 1.0", points, finite_points: points },
-    spacing: 0.1, noise: 0, smoothed: false, sigma_deg: 20, sigma_rule: "auto",
+    format: "keenline report",
+    version: 1,
+    title: "fixture.ply",
+    program: "keenline test",
+    command: "detect",
+    method: "gauss",
+    input: {
+      name: "fixture.ply",
+      path: "fixture.ply",
+      format: "ply",
+      encoding: "ascii 1.0",
+      points,
+      finite_points: points,
+    },
+    spacing: 0.1,
+    noise: 0,
+    smoothed: false,
+    sigma_deg: 20,
+    sigma_rule: "auto",
     options: { neighbors: 16, "min-sine": 0.001, "min-cluster": "auto" },
-    times: { read: 0.01, detect: 0.2 }, notes: [],
+    times: { read: 0.01, detect: 0.2 },
+    notes: [],
     cloud: { kept: points, left_out: "", origin: [0, 0, 0], step: 1 / 1024 },
-    kinds: kindFacts, attributes: [], graph: null,
-  }; // prettier-ignore
+    kinds: kindFacts,
+    attributes: [],
+    graph: null,
+  };
 }
 
 /** Points of a plane grid and of one across it: an edge where they meet. Sharp there below 60 degrees. */
@@ -47,7 +66,11 @@ export function creaseColumns(side: number): { columns: Column[]; points: number
     { name: "kind", values: Uint8Array.from(isEdge, (edge) => (edge ? 2 : 0)) },
     { name: "clusters", values: Uint8Array.from(isEdge, (edge) => (edge ? 2 : 1)) },
     { name: "spectrum_count", values: Uint8Array.from(isEdge, (edge) => (edge ? 2 : 1)) },
-    { name: "spectrum_rise", values: Uint16Array.from(isEdge.filter(Boolean), () => 60 * 728), coding: "planes" },
+    {
+      name: "spectrum_rise",
+      values: Uint16Array.from(isEdge.filter(Boolean), () => 60 * 728),
+      coding: "planes",
+    },
     { name: "spectrum_kind", values: Uint8Array.from(isEdge.flatMap((edge) => (edge ? [2, 0] : [0]))) },
     { name: "spectrum_clusters", values: Uint8Array.from(isEdge.flatMap((edge) => (edge ? [2, 1] : [1]))) },
     { name: "counts", values: counts, components: 7, coding: "delta" },

@@ -1,6 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { averageLinkage, cut, gaussMap, lineAngle, lineAngles, rightAngle, triangleLines, unitsPerDegree } from "../src/gauss_map";
+import {
+  averageLinkage,
+  cut,
+  gaussMap,
+  lineAngle,
+  lineAngles,
+  rightAngle,
+  triangleLines,
+  unitsPerDegree,
+} from "../src/gauss_map";
 import { random } from "./random";
 
 /** Merges the closest of all pairs, over and over, from the distances of the items themselves. */
@@ -19,7 +28,13 @@ function slowLinkage(distances: Float64Array, count: number) {
       }
     }
     const { sum, pairs, a, b } = best!;
-    merges.push({ first: a[0], second: b[0], firstSize: a.length, secondSize: b.length, height: sum / pairs });
+    merges.push({
+      first: a[0],
+      second: b[0],
+      firstSize: a.length,
+      secondSize: b.length,
+      height: sum / pairs,
+    });
     clusters = [...clusters.filter((c) => c !== a && c !== b), [...a, ...b].sort((x, y) => x - y)];
     clusters.sort((x, y) => x[0] - y[0]);
   }
@@ -36,15 +51,22 @@ test("average linkage merges what the closest-pair rule merges", () => {
     const range = round % 2 === 0 ? 6 : 60000; // few values: many ties
     const distances = new Float64Array(count * count);
     for (let i = 0; i < count; ++i)
-      for (let j = 0; j < i; ++j) distances[i * count + j] = distances[j * count + i] = Math.floor(next() * range);
-    assert.deepEqual(byHeight(averageLinkage(distances.slice(), count)), byHeight(slowLinkage(distances, count)));
+      for (let j = 0; j < i; ++j)
+        distances[i * count + j] = distances[j * count + i] = Math.floor(next() * range);
+    assert.deepEqual(
+      byHeight(averageLinkage(distances.slice(), count)),
+      byHeight(slowLinkage(distances, count)),
+    );
   }
 });
 
 test("angles are those of the definition, within a unit", () => {
   for (let degrees = 0.05; degrees <= 90; degrees += 0.05) {
     const exact = degrees * unitsPerDegree;
-    assert.ok(Math.abs(lineAngle(Math.fround(Math.cos((degrees * Math.PI) / 180))) - exact) <= 1.5, `${degrees}`);
+    assert.ok(
+      Math.abs(lineAngle(Math.fround(Math.cos((degrees * Math.PI) / 180))) - exact) <= 1.5,
+      `${degrees}`,
+    );
   }
   assert.equal(lineAngle(0), rightAngle);
   assert.equal(lineAngle(1), 0);
@@ -63,13 +85,27 @@ test("a point on a plane has one cluster, on a crease two", () => {
   const ring = (x: number, z: number) =>
     Array.from({ length: 8 }, (_, i) => {
       const angle = ((i + 0.5) * Math.PI) / 8 - Math.PI / 2;
-      return [1000 + Math.round(x * 100 * Math.cos(angle)), 1000 + Math.round(100 * Math.sin(angle)), 1000 + Math.round(z * 100 * Math.cos(angle))];
+      return [
+        1000 + Math.round(x * 100 * Math.cos(angle)),
+        1000 + Math.round(100 * Math.sin(angle)),
+        1000 + Math.round(z * 100 * Math.cos(angle)),
+      ];
     }).flat();
   const neighbors = Uint32Array.from({ length: 16 }, (_, i) => i + 1);
   const options = { minSine: 0.001, minCluster: null };
-  const plane = gaussMap(Uint32Array.of(1000, 1000, 1000, ...ring(1, 0), ...ring(-1, 0)), 0, neighbors, options);
+  const plane = gaussMap(
+    Uint32Array.of(1000, 1000, 1000, ...ring(1, 0), ...ring(-1, 0)),
+    0,
+    neighbors,
+    options,
+  );
   assert.deepEqual(cut(plane, 20 * unitsPerDegree).sizes, [plane.lines.length / 3]);
-  const crease = gaussMap(Uint32Array.of(1000, 1000, 1000, ...ring(1, 0), ...ring(0, 1)), 0, neighbors, options);
+  const crease = gaussMap(
+    Uint32Array.of(1000, 1000, 1000, ...ring(1, 0), ...ring(0, 1)),
+    0,
+    neighbors,
+    options,
+  );
   const faces = cut(crease, 1 * unitsPerDegree);
   assert.deepEqual(faces.sizes.slice(0, 2), [28, 28]); // the 8 · 7 / 2 triangles of either face
   assert.equal(cut(crease, rightAngle).sizes.length, 1);

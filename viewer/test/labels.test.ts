@@ -15,7 +15,14 @@ test("a step holds from its sensitivity up to the next", () => {
   );
   const kind = new Uint8Array(2);
   const clusters = new Uint8Array(2);
-  for (const [sensitivity, expected] of [[0, 2], [99, 2], [100, 1], [65099, 1], [65100, 0], [65520, 0]]) {
+  for (const [sensitivity, expected] of [
+    [0, 2],
+    [99, 2],
+    [100, 1],
+    [65099, 1],
+    [65100, 0],
+    [65520, 0],
+  ]) {
     relabel(spectrum, sensitivity, kind, clusters);
     assert.deepEqual([...kind], [0, expected], `${sensitivity}`);
   }
@@ -26,7 +33,12 @@ test("of one point: the middle of the widest range of a kind between 8 and 45 de
   const lasting = (...steps: [number, number][]) => {
     const rises = steps.slice(1).map(([from], i) => (from - steps[i][0]) * 728);
     const kind = Uint8Array.from(steps, ([, k]) => k);
-    return spectrumFrom(Uint8Array.of(steps.length), Uint16Array.from(rises), kind, new Uint8Array(steps.length));
+    return spectrumFrom(
+      Uint8Array.of(steps.length),
+      Uint16Array.from(rises),
+      kind,
+      new Uint8Array(steps.length),
+    );
   };
   const degrees = (...steps: [number, number][]) => localSensitivity(lasting(...steps), 0) / 728;
   assert.equal(degrees([0, 0]), 26.5);
@@ -56,7 +68,10 @@ test("labels follow sigma, counts are the program's, and its own labels come bac
   const { columns, points } = creaseColumns(5);
   const { buffers, bytes } = encodeColumns(columns);
   const facts = { ...factsOf(points), buffers };
-  facts.kinds = facts.kinds.map((kind) => ({ ...kind, count: kind.name === "edge" ? 5 : kind.name === "flat" ? points - 5 : 0 }));
+  facts.kinds = facts.kinds.map((kind) => ({
+    ...kind,
+    count: kind.name === "edge" ? 5 : kind.name === "flat" ? points - 5 : 0,
+  }));
   const result = new Result(facts, decodeColumns(buffers, bytes));
   const edges = () => result.kind.filter((k) => k === kinds.edge).length;
   assert.equal(edges(), 5);

@@ -34,7 +34,10 @@ async function setSigma(page: Page, sigma: number): Promise<void> {
 }
 
 async function saved(page: Page, button: string): Promise<{ name: string; bytes: Buffer }> {
-  const [download]: [Download, void] = await Promise.all([page.waitForEvent("download"), page.$eval(button, (b) => (b as HTMLElement).click())]);
+  const [download]: [Download, void] = await Promise.all([
+    page.waitForEvent("download"),
+    page.$eval(button, (b) => (b as HTMLElement).click()),
+  ]);
   return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
 }
 
@@ -83,9 +86,12 @@ test("the keyboard alone reaches and moves everything", async () => {
   const reached = new Set<string>();
   for (let i = 0; i < 45; ++i) {
     await page.keyboard.press("Tab");
-    reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent || ""));
+    reached.add(
+      await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent || ""),
+    );
   }
-  for (const id of ["fit", "measure", "sigma-slider", "sigma-exact", "point-number"]) assert.ok(reached.has(id), id);
+  for (const id of ["fit", "measure", "sigma-slider", "sigma-exact", "point-number"])
+    assert.ok(reached.has(id), id);
   await page.focus(".layers input");
   await page.keyboard.press("Space");
   assert.equal(await page.isChecked(".layers input"), false);
@@ -202,7 +208,11 @@ test("the policy stops what is not the page's own script", async () => {
   assert.equal(ran, false);
 });
 
-const degenerate: Record<string, number[]> = { "no point": [], "one point": [7, 7, 7], "two points in one place": [7, 7, 7, 7, 7, 7] };
+const degenerate: Record<string, number[]> = {
+  "no point": [],
+  "one point": [7, 7, 7],
+  "two points in one place": [7, 7, 7, 7, 7, 7],
+};
 for (const [name, position] of Object.entries(degenerate)) {
   test(`a cloud of ${name} gives a page`, async () => {
     const count = position.length / 3;
@@ -242,7 +252,11 @@ test("without WebGL everything but the cloud is there", async () => {
 });
 
 test("on a phone nothing is wider than the screen, and a touch chooses a point", async () => {
-  const { page, errors } = await openPage(browser, crease, { viewport: { width: 375, height: 700 }, hasTouch: true, isMobile: true });
+  const { page, errors } = await openPage(browser, crease, {
+    viewport: { width: 375, height: 700 },
+    hasTouch: true,
+    isMobile: true,
+  });
   assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 375);
   await page.tap("[aria-label='From above']");
   const box = (await page.locator("#canvas").boundingBox())!;

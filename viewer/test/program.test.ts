@@ -73,7 +73,10 @@ test("every point of the page is labelled as relabel does", { skip }, async () =
 });
 
 function columnsOf(csv: string, names: string[]): string[] {
-  const [head, ...rows] = csv.trim().split("\n").map((row) => row.trim().split(","));
+  const [head, ...rows] = csv
+    .trim()
+    .split("\n")
+    .map((row) => row.trim().split(","));
   const places = names.map((name) => head.indexOf(name));
   assert.ok(!places.includes(-1), `columns of ${head.join(",")}`);
   return rows.map((row) => places.map((place) => row[place]).join(","));
@@ -96,7 +99,12 @@ test("the clusters of a point are the program's, clicked or by number", { skip }
     assert.equal(await shown(), clusters[point], `point ${point}`);
   }
   const box = (await page.locator("#canvas").boundingBox())!;
-  for (const [right, down] of [[0, 0], [-60, 40], [80, 10], [-120, 60]]) {
+  for (const [right, down] of [
+    [0, 0],
+    [-60, 40],
+    [80, 10],
+    [-120, 60],
+  ]) {
     await page.mouse.click(box.x + box.width / 2 + right, box.y + box.height / 2 + down);
     const point = Number((await page.textContent("#point-told"))!.match(/[\d,]+/)![0].replace(",", ""));
     assert.equal(await shown(), clusters[point], `point ${point}`);
@@ -104,9 +112,12 @@ test("the clusters of a point are the program's, clicked or by number", { skip }
 });
 
 test("the table holds the lines of the drawing; they can be sorted, found and saved", { skip }, async () => {
-  const drawing = JSON.parse(await readFile(join(folder, "lines.json"), "utf8")) as { polylines: { length: number }[] };
+  const drawing = JSON.parse(await readFile(join(folder, "lines.json"), "utf8")) as {
+    polylines: { length: number }[];
+  };
   const { page } = await openPage(browser, join(folder, "report.html"));
-  const lengths = () => page.$$eval("#lines tbody tr", (rows) => rows.map((row) => Number(row.children[1].textContent)));
+  const lengths = () =>
+    page.$$eval("#lines tbody tr", (rows) => rows.map((row) => Number(row.children[1].textContent)));
   const falling = drawing.polylines.map(({ length }) => Number(length.toPrecision(4))).sort((a, b) => b - a);
   assert.deepEqual(await lengths(), falling);
   await page.click("#lines th:nth-child(2) button");

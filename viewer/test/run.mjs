@@ -10,7 +10,8 @@ const here = dirname(fileURLToPath(import.meta.url));
 const wanted = process.argv.slice(2);
 const tests = (await readdir(here)).filter((name) => name.endsWith(".test.ts"));
 const chosen = tests.filter((name) => wanted.length === 0 || wanted.includes(name.replace(".test.ts", "")));
-if (chosen.length === 0) throw new Error(`no test named ${wanted.join(", ")}: expected some of ${tests.join(", ")}`);
+if (chosen.length === 0)
+  throw new Error(`no test named ${wanted.join(", ")}: expected some of ${tests.join(", ")}`);
 
 const out = await mkdtemp(join(tmpdir(), "keenline-viewer-"));
 await build({
