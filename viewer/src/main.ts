@@ -110,7 +110,10 @@ class Page {
     const update = () => {
       const counts = this.result.countOfKinds();
       const sharp = [...counts].reduce((sum, [kind, count]) => sum + (isFeature(kind) ? count : 0), 0);
-      const words = [`${grouped(input.points)} point${input.points === 1 ? "" : "s"}`, `${grouped(sharp)} sharp`];
+      const words = [
+        `${grouped(input.points)} point${input.points === 1 ? "" : "s"}`,
+        `${grouped(sharp)} sharp`,
+      ];
       const lines = this.result.facts.graph?.polylines.length;
       if (lines !== undefined) words.push(`${grouped(lines)} lines`);
       if (this.result.sigmaDeg !== null) words.push(`σ ${rounded(this.result.sigmaDeg)}°`);
