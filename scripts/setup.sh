@@ -4,17 +4,22 @@
 set -euo pipefail
 
 level=${1:?usage: scripts/setup.sh build|test|check|bench}
-packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev libsqlite3-dev libhwy-dev)
+packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev zlib1g-dev libsqlite3-dev libhwy-dev)
 tools=(c++ cmake ninja)
-headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h sqlite3.h hwy/highway.h)
+# The page of reports is built with npm. Whoever has a Node keeps it.
+if ! command -v npm >/dev/null || ! node -e 'process.exit(parseInt(process.versions.node) >= 18 ? 0 : 1)' 2>/dev/null; then
+  packages+=(nodejs npm)
+  tools+=(node npm)
+fi
+headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h zlib.h sqlite3.h hwy/highway.h)
 case $level in
   build) ;;
   bench)
     packages+=(libbenchmark-dev libnanoflann-dev libcgal-dev libpcl-dev pkg-config)
     headers+=(benchmark/benchmark.h nanoflann.hpp) ;;
   test|check)
-    packages+=(libgtest-dev python3 python3-ezdxf)
-    tools+=(python3)
+    packages+=(libgtest-dev python3 python3-ezdxf chromium)
+    tools+=(python3 chromium)
     headers+=(gtest/gtest.h) ;;&
   check)
     packages+=(libocct-data-exchange-dev clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)

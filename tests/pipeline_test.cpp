@@ -12,14 +12,17 @@
 #include "keenline/io/graph_files.h"
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
+#include "keenline/report/report_page.h"
 #include "keenline/synth/synth.h"
 
 #include "support/expect_error.h"
+#include "support/report_file.h"
 #include "support/temporary_folder.h"
 
 namespace keenline {
 namespace {
 
+using test::expect_error;
 using test::TemporaryFolder;
 
 std::string cube_file(const TemporaryFolder& folder) {
@@ -263,6 +266,171 @@ TEST(Pipeline, ASpectrumDoesNotOutliveItsLabels) {
                           [](const std::string& note) { return note.find("left out") != std::string::npos; }),
             3);
   EXPECT_EQ(TemporaryFolder::read(job.output), TemporaryFolder::read(folder.file("plain.ply")));
+}
+
+/// With the page of this build; without one there is nothing to test.
+class PipelineViews : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (report_page().empty()) GTEST_SKIP() << "built without the page";
+  }
+};
+
+TEST_F(PipelineViews, AReportIsEnoughAndKnowsEverySensitivity) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = cube_file(folder);
+  job.views.report = folder.file("cube.html");
+  job.views.report_points = 1500;
+  const DetectReport report = run_detect(job);
+  EXPECT_FALSE(report.labels.spectrum);
+  EXPECT_EQ(report.options.at("spectrum"), 0.0);
+  EXPECT_EQ(folder.entries(), 2U);
+
+  job.views = {};
+  job.options = {{"spectrum", 1.0}};
+  job.output = folder.file("out.ply");
+  const FeatureLabels labels = run_detect(job).labels;
+  const test::ReportFile file(TemporaryFolder::read(folder.file("cube.html")));
+  EXPECT_EQ(file.facts.at("command"), "detect");
+  EXPECT_EQ(file.facts.at("sigma_deg"), labels.sigma_deg);
+  EXPECT_EQ(file.facts.at("sigma_rule"), "auto");
+  EXPECT_EQ(file.facts.at("options").at("spectrum"), false);
+  EXPECT_EQ(file.facts.at("cloud").at("kept"), 1500);
+  EXPECT_EQ(file.facts.at("truth"), "truth_kind");
+  const std::vector<std::uint32_t> index = file.numbers("index");
+  const std::vector<std::uint32_t> steps = file.numbers("spectrum_count");
+  ASSERT_EQ(index.size(), 1500U);
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    const std::uint32_t point = index[i];
+    EXPECT_EQ(steps[i], labels.spectrum->offsets[point + 1] - labels.spectrum->offsets[point]);
+  }
+}
+
+TEST_F(PipelineViews, TheResultIsTheSameWithThem) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = cube_file(folder);
+  job.output = folder.file("without.ply");
+  (void)run_detect(job);
+  job.output = folder.file("with.ply");
+  job.views.report = folder.file("with.html");
+  job.views.picture = folder.file("with.png");
+  (void)run_detect(job);
+  EXPECT_EQ(TemporaryFolder::read(folder.file("with.ply")),
+            TemporaryFolder::read(folder.file("without.ply")));
+  EXPECT_TRUE(TemporaryFolder::read(job.views.picture).starts_with("\x89PNG"));
+}
+
+TEST_F(PipelineViews, ASmoothedCloudComesWithWhatWasLookedAt) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = cube_file(folder);
+  job.smoothing = Smoothing::Yes;
+  job.method = "pauly";
+  job.views.report = folder.file("cube.html");
+  (void)run_detect(job);
+  const test::ReportFile file(TemporaryFolder::read(job.views.report));
+  EXPECT_EQ(file.facts.at("smoothed"), true);
+  EXPECT_EQ(file.facts.at("sigma_rule"), nullptr);
+  EXPECT_EQ(file.facts.at("sigma_deg"), nullptr);
+  const std::vector<std::uint32_t> offsets = file.numbers("seen_offset");
+  EXPECT_EQ(offsets.size(), 6000U);
+  EXPECT_GT(std::count_if(offsets.begin(), offsets.end(), [](std::uint32_t o) { return o > 0; }), 1000);
+}
+
+TEST_F(PipelineViews, OfLinesHoldTheDrawing) {
+  const TemporaryFolder folder;
+  LinesJob job;
+  job.input = cube_file(folder);
+  job.outputs = {folder.file("out.json")};
+  job.views.report = folder.file("out.html");
+  job.views.picture = folder.file("out.png");
+  const LinesReport report = run_lines(job);
+  EXPECT_FALSE(report.detection.labels.spectrum);
+  const test::ReportFile file(TemporaryFolder::read(job.views.report));
+  EXPECT_EQ(file.facts.at("graph"), nlohmann::json::parse(TemporaryFolder::read(folder.file("out.json"))));
+  EXPECT_EQ(file.facts.at("method"), "gauss");
+  EXPECT_EQ(file.numbers("counts").size(), 65521U * 7);
+  EXPECT_TRUE(file.facts.at("times").contains("lines"));
+  // Without a drawing, and of labels that came with the input.
+  DetectJob labelling;
+  labelling.input = job.input;
+  labelling.output = folder.file("labels.ply");
+  (void)run_detect(labelling);
+  job.input = labelling.output;
+  job.outputs.clear();
+  (void)run_lines(job);
+  const test::ReportFile again(TemporaryFolder::read(job.views.report));
+  EXPECT_EQ(again.facts.at("method"), nullptr);
+  EXPECT_EQ(again.facts.at("graph"), file.facts.at("graph"));
+}
+
+TEST_F(PipelineViews, AllAppearOrNone) {
+  const TemporaryFolder folder;
+  DetectJob job;
+  job.input = cube_file(folder);
+  job.output = folder.file("out.ply");
+  job.views.report = folder.file("out.html");
+  job.views.picture = folder.file("out.png");
+  const auto refuse = [](const auto&) { throw OutputError("stdout", "full"); };
+  EXPECT_THROW((void)run_detect(job, no_progress(), refuse), OutputError);
+  EXPECT_EQ(folder.entries(), 1U);
+  std::filesystem::create_directory(job.views.picture);
+  EXPECT_THROW((void)run_detect(job), OutputError);
+  LinesJob lines;
+  lines.input = job.input;
+  lines.outputs = {folder.file("out.obj")};
+  lines.views = job.views;
+  EXPECT_THROW((void)run_lines(lines), OutputError);
+  EXPECT_EQ(folder.entries(), 2U);
+}
+
+TEST_F(PipelineViews, MistakesAreFoundBeforeTheWork) {
+  const TemporaryFolder folder;
+  const std::string input = cube_file(folder);
+  const auto refused = [&](const std::string& output, const Views& views, std::string_view part) {
+    DetectJob job;
+    job.input = input;
+    job.output = output;
+    job.views = views;
+    expect_error<InvalidArgument>([&] { (void)run_detect(job); }, part);
+    LinesJob lines;
+    lines.input = input;
+    if (!output.empty()) lines.outputs = {folder.file("out.obj")};
+    lines.views = views;
+    expect_error<InvalidArgument>([&] { (void)run_lines(lines); }, part);
+  };
+  refused("", {}, "expected a name that ends in");
+  const std::string output = folder.file("out.ply");
+  refused(output, {.report = folder.file("a.htm")}, ".html");
+  refused(output, {.picture = folder.file("a.jpg")}, ".png");
+  refused("", {.report = input}, ".html");
+  refused("", {.report = folder.file("x.html"), .picture = folder.file("./x.html")}, ".png");
+  std::filesystem::create_symlink("cube.ply", folder.path() / "link.html");
+  refused("", {.report = folder.file("link.html")}, "is the input");
+  EXPECT_EQ(folder.entries(), 2U);
+}
+
+TEST_F(PipelineViews, HostileCloudsStillGiveAPage) {
+  const TemporaryFolder folder;
+  const char* const clouds[] = {"x,y,z\n", "x,y,z\n1,2,3\n", "x,y,z\nnan,0,0\n",
+                                "x,y,z\n1e30,-1e30,1e300\n0,0,0\n1,1,nan\n", "x,y,z\n5,5,5\n5,5,5\n5,5,5\n"};
+  for (const char* const cloud : clouds) {
+    DetectJob job;
+    job.input = folder.write("<script><b>.csv", cloud);
+    job.views.report = folder.file("out.html");
+    job.views.picture = folder.file("out.png");
+    const DetectReport report = run_detect(job);
+    const test::ReportFile file(TemporaryFolder::read(job.views.report));
+    EXPECT_EQ(file.facts.at("cloud").at("kept"), report.finite_points) << cloud;
+    LinesJob lines;
+    lines.input = job.input;
+    lines.views = job.views;
+    (void)run_lines(lines);
+    EXPECT_EQ(
+        test::ReportFile(TemporaryFolder::read(job.views.report)).facts.at("graph").at("corners").size(), 0U);
+  }
 }
 
 TEST(Pipeline, AddLabelsChecksTheLength) {

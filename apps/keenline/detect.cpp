@@ -15,6 +15,7 @@
 #include "label_counts.h"
 #include "method_options.h"
 #include "terminal.h"
+#include "view_options.h"
 
 namespace keenline::cli {
 namespace {
@@ -29,28 +30,31 @@ struct DetectArguments {
 
 void print_json_report(const DetectArguments& arguments, const DetectReport& report) {
   const StageTimes& times = report.times;
-  print_json({{"input", arguments.job.input},
-              {"output", arguments.job.output},
-              {"format", report.format},
-              {"encoding", report.encoding},
-              {"points", report.points},
-              {"finite_points", report.finite_points},
-              {"spacing", report.spacing},
-              {"noise", report.noise},
-              {"smoothed", report.smoothed},
-              {"method", arguments.job.method},
-              {"options", json_options(find_method(arguments.job.method), report.options)},
-              {"counts", counts_per_kind(report.labels)},
-              {"feature_points", count_features(report.labels)},
-              {"notes", report.notes},
-              {"timings_s",
-               {{"read", times.read_s},
-                {"neighborhoods", times.neighborhoods_s},
-                {"smooth", times.smooth_s},
-                {"detect", times.detect_s},
-                {"write", times.write_s},
-                {"total", times.total_s}}},
-              {"peak_memory_bytes", peak_memory()}});
+  nlohmann::json object{{"input", arguments.job.input},
+                        {"output", nullptr},
+                        {"format", report.format},
+                        {"encoding", report.encoding},
+                        {"points", report.points},
+                        {"finite_points", report.finite_points},
+                        {"spacing", report.spacing},
+                        {"noise", report.noise},
+                        {"smoothed", report.smoothed},
+                        {"method", arguments.job.method},
+                        {"options", json_options(find_method(arguments.job.method), report.options)},
+                        {"counts", counts_per_kind(report.labels)},
+                        {"feature_points", count_features(report.labels)},
+                        {"notes", report.notes},
+                        {"timings_s",
+                         {{"read", times.read_s},
+                          {"neighborhoods", times.neighborhoods_s},
+                          {"smooth", times.smooth_s},
+                          {"detect", times.detect_s},
+                          {"write", times.write_s},
+                          {"total", times.total_s}}},
+                        {"peak_memory_bytes", peak_memory()}};
+  if (!arguments.job.output.empty()) object["output"] = arguments.job.output;
+  add_views(object, arguments.job.views);
+  print_json(std::move(object));
 }
 
 void print_summary(const DetectArguments& arguments, const DetectReport& report) {
@@ -61,7 +65,7 @@ void print_summary(const DetectArguments& arguments, const DetectReport& report)
   text += fmt::format("spacing {:.4g}, noise {:.2f} spacings{}\n", report.spacing, report.noise,
                       report.smoothed ? ": smoothed before looking" : "");
   text += fmt::format("method {}{}\n", method.name, option_words(method, report.options));
-  text += label_lines(report.labels, arguments.job.output);
+  text += label_lines(report.labels, all_outputs({arguments.job.output}, arguments.job.views));
   print(text);
 }
 
@@ -89,13 +93,13 @@ void add_detect(CLI::App& app, Action& action) {
                    "Point cloud or mesh: PLY, PCD, LAS, OFF, OBJ, STL, XYZ, TXT, CSV")
       ->required();
   command->add_option("-o,--output", arguments->job.output, "Result: .ply (binary) or .csv")
-      ->required()
       ->type_name("OUT");
   command->add_option("--method", arguments->job.method, "One of: keenline methods")
       ->capture_default_str()
       ->type_name("NAME");
   add_method_options(*command, methods(), arguments->method);
   add_smoothing_option(*command, arguments->job.smoothing);
+  add_view_options(*command, arguments->job.views);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all)")->type_name("N");
   command->add_flag("--json", arguments->json, "One JSON object on stdout instead of the summary");
   command->add_flag("--quiet", arguments->quiet, "No summary, no notes, no progress");

@@ -20,7 +20,7 @@ std::size_t count_features(const FeatureLabels& labels) {
   return static_cast<std::size_t>(std::count_if(labels.kind.begin(), labels.kind.end(), is_feature));
 }
 
-std::string label_lines(const FeatureLabels& labels, const std::string& output) {
+std::string label_lines(const FeatureLabels& labels, const std::vector<std::string>& outputs) {
   std::string text;
   const auto counts = counts_per_kind(labels);
   for (const Kind kind : all_kinds) {
@@ -29,8 +29,10 @@ std::string label_lines(const FeatureLabels& labels, const std::string& output) 
     text += fmt::format("  {:<10} {:>12}  {:5.1f} %\n", name_of(kind), grouped(count),
                         100.0 * static_cast<double>(count) / static_cast<double>(labels.size()));
   }
-  text +=
-      fmt::format("{} sharp points; result in {}\n", grouped(count_features(labels)), escaped(output, 4096));
+  text += fmt::format("{} sharp points; result in ", grouped(count_features(labels)));
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    text += fmt::format("{}{}", i > 0 ? ", " : "", escaped(outputs[i], 4096));
+  text += '\n';
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "keenline/labels.h"
 
@@ -15,7 +16,7 @@ namespace keenline::cli {
 [[nodiscard]] std::size_t count_features(const FeatureLabels& labels);
 
 /// Lines of a summary: a kind that there is, its points, its share; then how many are sharp, and in which
-/// file all that is.
-[[nodiscard]] std::string label_lines(const FeatureLabels& labels, const std::string& output);
+/// files all that is.
+[[nodiscard]] std::string label_lines(const FeatureLabels& labels, const std::vector<std::string>& outputs);
 
 }  // namespace keenline::cli

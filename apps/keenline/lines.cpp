@@ -16,6 +16,7 @@
 #include "commands.h"
 #include "method_options.h"
 #include "terminal.h"
+#include "view_options.h"
 
 namespace keenline::cli {
 namespace {
@@ -62,6 +63,7 @@ void print_json_report(const LinesArguments& arguments, const LinesReport& repor
     object["noise"] = detection.noise;
     object["smoothed"] = detection.smoothed;
   }
+  add_views(object, arguments.job.views);
   print_json(std::move(object));
 }
 
@@ -81,7 +83,7 @@ void print_summary(const LinesArguments& arguments, const LinesReport& report) {
   const GraphCounts counts = counts_of(report.graph);
   text += fmt::format("{} corners, {} lines, {} of them closed, {} loose ends, length {:.6g}\n",
                       counts.corners, counts.polylines, counts.loops, counts.loose_ends, counts.length);
-  for (const std::string& output : arguments.job.outputs)
+  for (const std::string& output : all_outputs(arguments.job.outputs, arguments.job.views))
     text += fmt::format("  {}\n", escaped(output, 4096));
   print(text);
 }
@@ -114,13 +116,13 @@ void add_lines(CLI::App& app, Action& action) {
   command
       ->add_option("-o,--output", job.outputs,
                    fmt::format("Drawing: {}; repeat it for several", graph_extensions()))
-      ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
   command->add_option("--method", job.method, "Label the points by this method: one of keenline methods")
       ->type_name("NAME");
   add_method_options(*command, methods(), arguments->method, "spectrum");
   add_smoothing_option(*command, job.smoothing);
+  add_view_options(*command, job.views);
   std::string tracers = "How lines are drawn from the labels:";
   for (const LineTracer& tracer : line_tracers())
     tracers += fmt::format("{} {}", &tracer == &line_tracers().front() ? "" : ",", tracer.name);

@@ -66,12 +66,7 @@ nlohmann::json json_options(const Method& method, const OptionValues& values) {
   nlohmann::json object = nlohmann::json::object();
   for (const OptionInfo& option : method.options) {
     const std::string name(option.name);
-    const std::optional<double>& value = values.at(name);
-    const std::string text = text_of(option, value);
-    if (text == option.automatic || text == option.word_for_minimum) object[name] = text;
-    else if (option.type == OptionInfo::Type::Flag) object[name] = *value != 0;
-    else if (option.type == OptionInfo::Type::Integer) object[name] = static_cast<std::int64_t>(*value);
-    else object[name] = *value;
+    std::visit([&](const auto& value) { object[name] = value; }, told_value(option, values.at(name)));
   }
   return object;
 }

@@ -62,7 +62,7 @@ void print_summary(const RelabelArguments& arguments, const RelabelReport& repor
   print(fmt::format("{}: {} points ({}, {}), {:.2f} s\nsigma {}\n{}", escaped(arguments.job.input, 4096),
                     grouped(report.points), report.format, escaped(report.encoding), report.times.total_s,
                     text_of(sigma_option(), report.labels.sigma_deg),
-                    label_lines(report.labels, arguments.job.output)));
+                    label_lines(report.labels, {arguments.job.output})));
 }
 
 void relabel(RelabelArguments& arguments) {

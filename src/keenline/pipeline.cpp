@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <list>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -26,6 +27,10 @@
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/smooth.h"
 #include "keenline/neighborhood/spacing.h"
+#include "keenline/report/picture.h"
+#include "keenline/report/png.h"
+#include "keenline/report/report_data.h"
+#include "keenline/report/report_page.h"
 
 namespace keenline {
 namespace {
@@ -52,9 +57,10 @@ void require_writable_folder(const std::string& output) {
     throw OutputError(output, "cannot be written: " + system_message(errno));
 }
 
-/// Smoothing where it is due, and detection. \pre report.options holds every option of the method
-void detect_in(const PointCloud& cloud, const NeighborSearch& search, const Method& method,
-               Smoothing smoothing, DetectReport& report, Progress& progress) {
+/// Smoothing where it is due, and detection; returns the smoothed positions, or none.
+/// \pre report.options holds every option of the method
+std::vector<Point> detect_in(const PointCloud& cloud, const NeighborSearch& search, const Method& method,
+                             Smoothing smoothing, DetectReport& report, Progress& progress) {
   StopWatch stage;
   report.spacing = estimate_spacing(cloud, search);
   report.noise = estimate_noise(cloud, search, progress);
@@ -66,7 +72,7 @@ void detect_in(const PointCloud& cloud, const NeighborSearch& search, const Meth
   if (!report.smoothed) {
     report.labels = method.detect(cloud, search, report.options, progress);
     report.times.detect_s = stage.lap_s();
-    return;
+    return {};
   }
   const SmoothOptions options;
   PointCloud smooth;  // positions only
@@ -76,23 +82,31 @@ void detect_in(const PointCloud& cloud, const NeighborSearch& search, const Meth
   report.times.smooth_s = stage.lap_s();
   report.labels = method.detect(smooth, smooth_search, report.options, progress);
   report.times.detect_s = stage.lap_s();
+  return std::move(smooth.positions);
 }
 
 void require_usable_output(const std::string& input, const std::string& output) {
-  require_writable_extension(output);
   require_different_files(input, output);
   require_writable_folder(output);
 }
 
-void require_usable_drawings(const std::string& input, const std::vector<std::string>& outputs) {
-  if (outputs.empty())
-    throw InvalidArgument(
-        fmt::format("output: found none, expected a name that ends in {}", graph_extensions()));
-  for (const std::string& output : outputs) {
-    (void)find_graph_format(output);
-    require_different_files(input, output);
-    require_writable_folder(output);
+void require_something_to_write(bool has_output, std::string_view extensions, const Views& views) {
+  if (!has_output && views.empty())
+    throw InvalidArgument(fmt::format(
+        "--output: found none, expected a name that ends in {}, or --report or --picture", extensions));
+}
+
+/// `outputs` have names that can be written. \throw InvalidArgument, OutputError
+void require_usable_outputs(const std::string& input, std::vector<std::string> outputs, const Views& views) {
+  if (!views.report.empty()) {
+    require_writable_report(views.report);
+    outputs.push_back(views.report);
   }
+  if (!views.picture.empty()) {
+    require_png_extension(views.picture);
+    outputs.push_back(views.picture);
+  }
+  for (const std::string& output : outputs) require_usable_output(input, output);
   require_distinct_outputs(outputs);
 }
 
@@ -113,6 +127,20 @@ void require_room_for_spectrum(const std::string& output) {
                                       quoted(output, 4096)));
 }
 
+/// A report can be asked about other sensitivities, whether or not the result can. Returns whether the
+/// spectrum is there for the report alone.
+bool add_spectrum_for(const Views& views, OptionValues& options) {
+  const auto found = options.find("spectrum");
+  if (views.report.empty() || found == options.end() || found->second == 1.0) return false;
+  found->second = 1.0;
+  return true;
+}
+
+void drop_spectrum(DetectReport& report) {
+  report.labels.spectrum.reset();
+  report.options["spectrum"] = 0.0;
+}
+
 /// A spectrum that is missing or wrong is the file's fault, not the caller's.
 LabelSpectrum spectrum_in(const std::string& file, const PointCloud& cloud) {
   try {
@@ -131,17 +159,94 @@ void take_over(const Reading& reading, Report& report) {
   report.notes.insert(report.notes.begin(), reading.notes.begin(), reading.notes.end());
 }
 
-/// Completes the report once all is written. The arguments must live until then.
+/// Completes the report once all but the views is written. The arguments must live until then.
 template <typename Report>
 BeforeCommit completing(Report& report, StopWatch& stage, StopWatch& total,
-                        const std::function<void(const Report&)>& before_commit) {
-  return [&](const std::vector<std::string>& writing_notes) {
-    report.notes.insert(report.notes.end(), writing_notes.begin(), writing_notes.end());
+                        const std::function<void(const Report&)>& before_commit,
+                        const std::function<void()>& write_views = {}) {
+  return [&report, &stage, &total, &before_commit, write_views](const std::vector<std::string>& notes) {
+    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    if (write_views) write_views();
     report.times.write_s = stage.lap_s();
     report.times.total_s = total.lap_s();
     if (before_commit) before_commit(report);
   };
 }
+
+/// "given", "auto", "local": who chose the sensitivity; nothing for a method without one.
+std::string_view sigma_rule_of(const Method& method, const OptionValues& given) {
+  const bool has_sigma = std::any_of(method.options.begin(), method.options.end(),
+                                     [](const OptionInfo& option) { return option.name == "sigma"; });
+  if (!has_sigma) return {};
+  const auto found = given.find("sigma");
+  if (found == given.end() || !found->second) return "auto";
+  return *found->second > 0 ? "given" : "local";
+}
+
+/// What a report tells of a run. `method` may be nullptr.
+ReportFacts facts_of(const std::string& input, const DetectReport& report, const Method* method,
+                     const OptionValues& given) {
+  ReportFacts facts;
+  facts.command = "detect";
+  facts.input = input;
+  facts.format = report.format;
+  facts.encoding = report.encoding;
+  facts.points = report.points;
+  facts.finite_points = report.finite_points;
+  facts.method = method;
+  facts.options = report.options;
+  facts.spacing = report.spacing;
+  facts.noise = report.noise;
+  facts.smoothed = report.smoothed;
+  facts.sigma_deg = report.labels.sigma_deg;
+  if (method != nullptr) facts.sigma_rule = sigma_rule_of(*method, given);
+  facts.times_s = {{"read", report.times.read_s},
+                   {"neighborhoods", report.times.neighborhoods_s},
+                   {"smooth", report.times.smooth_s},
+                   {"detect", report.times.detect_s}};
+  facts.notes = report.notes;
+  return facts;
+}
+
+/// Views beside their targets, until the result is there too.
+class ViewFiles {
+ public:
+  explicit ViewFiles(const Views& views) : views_(views) {}
+
+  /// Before anything is added to the cloud. `seen` as in report_data(). Returns notes.
+  std::vector<std::string> collect(const PointCloud& cloud, const FeatureLabels& labels,
+                                   const std::vector<Point>& seen, Progress& progress) {
+    if (views_.report.empty()) return {};
+    progress.begin("report", 0);
+    ReportDataOptions options;
+    options.max_points = views_.report_points;
+    data_ = report_data(cloud, labels, seen, options, progress);
+    return std::move(data_.notes);
+  }
+  void write(const ReportFacts& facts, const PointCloud& cloud, const FeatureGraph* lines,
+             Progress& progress) {
+    if (!views_.report.empty()) {
+      OutputFile& file = files_.emplace_back(views_.report);
+      write_report(report_page(), facts, data_, lines, file, progress);
+      file.store();
+    }
+    if (!views_.picture.empty()) {
+      PictureOptions options;
+      options.lines = lines;
+      OutputFile& file = files_.emplace_back(views_.picture);
+      file.write(png_bytes(draw_cloud(cloud, options, progress), progress));
+      file.store();
+    }
+  }
+  void commit() {
+    for (OutputFile& file : files_) file.commit();
+  }
+
+ private:
+  const Views& views_;
+  ReportData data_;
+  std::list<OutputFile> files_;
+};
 
 FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
                       double spacing, const LinesJob& job, Progress& progress) {
@@ -171,20 +276,29 @@ DetectReport run_detect(const DetectJob& job, Progress& progress,
   const Method& method = find_method(job.method);
   DetectReport report;
   report.options = resolve_options(method, job.options);
-  require_usable_output(job.input, job.output);
-  if (keeps_spectrum(report.options)) require_room_for_spectrum(job.output);
+  require_something_to_write(!job.output.empty(), ".ply or .csv", job.views);
+  if (!job.output.empty()) {
+    require_writable_extension(job.output);
+    if (keeps_spectrum(report.options)) require_room_for_spectrum(job.output);
+  }
+  require_usable_outputs(job.input, job.output.empty() ? std::vector<std::string>{} : std::vector{job.output},
+                         job.views);
+  const bool spectrum_is_for_views = add_spectrum_for(job.views, report.options);
 
   StopWatch total;
   StopWatch stage;
+  ViewFiles views(job.views);
   Reading reading = read_cloud(job.input, progress);
   report.times.read_s = stage.lap_s();
   {
     progress.begin("neighborhoods", 0);
     const NeighborSearch search(reading.cloud.positions, progress);
     report.times.neighborhoods_s = stage.lap_s();
-    detect_in(reading.cloud, search, method, job.smoothing, report, progress);
+    const std::vector<Point> seen = detect_in(reading.cloud, search, method, job.smoothing, report, progress);
     (void)stage.lap_s();
+    report.notes = views.collect(reading.cloud, report.labels, seen, progress);
   }
+  if (spectrum_is_for_views) drop_spectrum(report);
   const std::vector<std::string> replaced = add_labels(reading.cloud, report.labels);
   take_over(reading, report);
   for (const std::string& name : replaced)
@@ -194,13 +308,19 @@ DetectReport run_detect(const DetectJob& job, Progress& progress,
     for (const std::string& name : remove_spectrum(reading.cloud))
       report.notes.push_back(
           fmt::format("the input's attribute {} is left out: it belongs to other labels", quoted(name)));
-  write_cloud(job.output, reading.cloud, progress, completing(report, stage, total, before_commit));
+  const BeforeCommit complete = completing<DetectReport>(report, stage, total, before_commit, [&] {
+    views.write(facts_of(job.input, report, &method, job.options), reading.cloud, nullptr, progress);
+  });
+  if (job.output.empty()) complete({});
+  else (void)write_cloud(job.output, reading.cloud, progress, complete);
+  views.commit();
   return report;
 }
 
 RelabelReport run_relabel(const RelabelJob& job, Progress& progress,
                           const std::function<void(const RelabelReport&)>& before_commit) {
   if (job.sigma_rule == SigmaRule::Given) (void)sensitivity_of(job.sigma_deg);
+  require_writable_extension(job.output);
   require_usable_output(job.input, job.output);
 
   RelabelReport report;
@@ -226,18 +346,23 @@ LinesReport run_lines(const LinesJob& job, Progress& progress,
   const Method& method = job.method.empty() ? methods().front() : find_method(job.method);
   detection.options = resolve_options(method, job.options);
   (void)find_tracer(job.trace);
-  require_usable_drawings(job.input, job.outputs);
+  require_something_to_write(!job.outputs.empty(), graph_extensions(), job.views);
+  for (const std::string& output : job.outputs) (void)find_graph_format(output);
+  require_usable_outputs(job.input, job.outputs, job.views);
   require_not_negative("resample", job.resample_spacings);
   require_not_negative("fit", job.fit_spacings);
+  const bool spectrum_is_for_views = add_spectrum_for(job.views, detection.options);
 
   StopWatch total;
   StopWatch stage;
+  ViewFiles views(job.views);
   const Reading reading = read_cloud(job.input, progress);
   detection.times.read_s = stage.lap_s();
   const PointCloud& cloud = reading.cloud;
   progress.begin("neighborhoods", 0);
   const NeighborSearch search(cloud.positions, progress);
   detection.times.neighborhoods_s = stage.lap_s();
+  std::vector<Point> seen;
   std::optional<FeatureLabels> own;
   if (may_use_labels) own = labels_of(cloud);
   if (own) {
@@ -247,18 +372,26 @@ LinesReport run_lines(const LinesJob& job, Progress& progress,
     detection.notes.push_back("the labels of the input are used; --method labels it anew");
   } else {
     report.method = method.name;
-    detect_in(cloud, search, method, job.smoothing, detection, progress);
+    seen = detect_in(cloud, search, method, job.smoothing, detection, progress);
   }
+  const std::vector<std::string> view_notes = views.collect(cloud, detection.labels, seen, progress);
+  detection.notes.insert(detection.notes.end(), view_notes.begin(), view_notes.end());
+  if (spectrum_is_for_views && !own) drop_spectrum(detection);
   (void)stage.lap_s();
   report.graph = lines_of(cloud, search, detection.labels, detection.spacing, job, progress);
   detection.times.lines_s = stage.lap_s();
   report.graph.crs = crs_of(cloud);
   take_over(reading, detection);
   write_graph(job.outputs, report.graph, progress, [&] {
+    ReportFacts facts = facts_of(job.input, detection, own ? nullptr : &method, job.options);
+    facts.command = "lines";
+    facts.times_s.emplace_back("lines", detection.times.lines_s);
+    views.write(facts, cloud, &report.graph, progress);
     detection.times.write_s = stage.lap_s();
     detection.times.total_s = total.lap_s();
     if (before_commit) before_commit(report);
   });
+  views.commit();
   return report;
 }
 

@@ -26,14 +26,25 @@ enum class Smoothing : std::uint8_t {
 /// In spacings. Below, smoothing moves points about as far as the noise did.
 inline constexpr double noise_worth_smoothing = 0.2;
 
+/// How a run can be looked at. What is named is written with its result: all or nothing.
+struct Views {
+  std::string report{};  ///< .html, see write_report(); empty = none
+  /// In a larger cloud points are left out of the report that are neither sharp nor on a border.
+  std::size_t report_points = 1'000'000;
+  std::string picture{};  ///< .png, see draw_cloud(); empty = none
+
+  [[nodiscard]] bool empty() const { return report.empty() && picture.empty(); }
+};
+
 /// From a file to a file: read, neighborhoods, smooth if noisy, detect, write.
 struct DetectJob {
   std::string input;
-  std::string output;  ///< .ply or .csv
+  std::string output;  ///< .ply or .csv; may be empty where there are views
   std::string method = "gauss";
   OptionValues options;  ///< what differs from the method's defaults
   Smoothing smoothing =
       Smoothing::Auto;  ///< no matter what, a method's plain form gets the points as they are
+  Views views;
 };
 
 struct StageTimes {
@@ -61,7 +72,7 @@ struct DetectReport {
   StageTimes times;
 };
 
-/// `before_commit` is called with the report when all is written and only the renaming of the output is left.
+/// `before_commit` is called with the report when all is written and only the renaming of outputs is left.
 /// \throw InvalidArgument, InputError, OutOfMemory, std::bad_alloc, OutputError, Cancelled or what
 /// before_commit throws; the output is then as it was before.
 [[nodiscard]] DetectReport run_detect(const DetectJob& job, Progress& progress = no_progress(),
@@ -102,7 +113,7 @@ struct RelabelReport {
 /// smooth, resample and fit; write.
 struct LinesJob {
   std::string input;                 ///< a cloud, or what run_detect() wrote
-  std::vector<std::string> outputs;  ///< drawings, see graph_formats(); at least one
+  std::vector<std::string> outputs;  ///< drawings, see graph_formats(); at least one unless there are views
   /// Empty: the labels of the input where it has some (see labels_of()), else the first of methods().
   std::string method;
   OptionValues options;  ///< as in DetectJob
@@ -113,6 +124,7 @@ struct LinesJob {
   double resample_spacings =
       0;  ///< >= 0: distance of the vertices in spacings, see resample_lines(); 0 = as they are
   double fit_spacings = 0;  ///< >= 0: tolerance of fit_lines() in spacings; 0 = no curves are fitted
+  Views views;
 };
 
 struct LinesReport {

@@ -321,6 +321,18 @@ std::string text_of(const OptionInfo& option, const std::optional<double>& value
   return fmt::format("{}", *value);
 }
 
+std::variant<bool, std::int64_t, double, std::string> told_value(const OptionInfo& option,
+                                                                 const std::optional<double>& value) {
+  std::string text = text_of(option, value);
+  if (!value || text == option.word_for_minimum) return text;
+  switch (option.type) {
+    case OptionInfo::Type::Flag: return *value != 0;
+    case OptionInfo::Type::Integer: return static_cast<std::int64_t>(*value);
+    case OptionInfo::Type::Real: break;
+  }
+  return *value;
+}
+
 std::optional<double> parse_option(const OptionInfo& option, std::string_view text) {
   if (!option.automatic.empty() && text == option.automatic) return std::nullopt;
   if (!option.word_for_minimum.empty() && text == option.word_for_minimum) return option.minimum;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "keenline/labels.h"
 #include "keenline/progress.h"
@@ -73,6 +75,10 @@ struct Method {
 
 /// A value as a user would write it: "20", "auto", "local".
 [[nodiscard]] std::string text_of(const OptionInfo& option, const std::optional<double>& value);
+
+/// A value as reports and bindings hold it: the word of text_of() where it is one, else by the option's type.
+[[nodiscard]] std::variant<bool, std::int64_t, double, std::string> told_value(
+    const OptionInfo& option, const std::optional<double>& value);
 
 /// Text from a user as a value of the option. \throw InvalidArgument with name, text and allowed range.
 [[nodiscard]] std::optional<double> parse_option(const OptionInfo& option, std::string_view text);
