@@ -4,6 +4,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/sample_graph.h"
 
 #ifdef KEENLINE_STEP
