@@ -181,7 +181,7 @@ TEST(ReportDataTest, AttributesKeepWhatTheyCan) {
       EXPECT_NEAR(found("height")[i], heights[i], 0.4 / 65534);
     }
     if (i != 5) {
-      EXPECT_EQ(found("odd")[i], double{odd[i]});
+      EXPECT_EQ(found("odd")[i], static_cast<double>(odd[i]));
     }
   }
   EXPECT_TRUE(std::isnan(found("height")[7]));

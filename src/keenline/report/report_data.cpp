@@ -121,7 +121,8 @@ void add_labels(const FeatureLabels& labels, Selection selection, ReportData& da
   data.buffers.push_back(buffer_of("kind", kinds, BufferCoding::Raw));
   if (!labels.score.empty())
     add_attribute(
-        "score", "score", selection, [&](std::uint32_t point) { return double{labels.score[point]}; }, data);
+        "score", "score", selection,
+        [&](std::uint32_t point) { return static_cast<double>(labels.score[point]); }, data);
   if (!labels.clusters.empty()) {
     const auto clusters =
         for_each<std::uint8_t>(selection, [&](std::uint32_t point) { return labels.clusters[point]; });
