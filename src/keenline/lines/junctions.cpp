@@ -219,7 +219,10 @@ class CornerFinder {
   /// The lines that pass the corner without ending there.
   [[nodiscard]] std::vector<Passage> passages_at(const Corner& corner) const {
     std::vector<std::pair<double, Passage>> nearest;  // of each path
-    grid_.near(corner.at.position, 2 * passes, [&](const FootGrid::Entry& entry) {
+    double scale = 0;
+    for (const PathEnd& end : corner.ends) scale = std::max(scale, foot_at(paths_, end).scale);
+    // Twice as far: the points around the lines that pass may be wider apart.
+    grid_.near(corner.at.position, 2 * passes * scale, [&](const FootGrid::Entry& entry) {
       const double d = distance(entry.foot.position, corner.at.position);
       if (d > passes * entry.foot.scale) return;
       const auto is_it = [&](const PathEnd& end) { return end.path == entry.path; };
