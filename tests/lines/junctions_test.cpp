@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "keenline/errors.h"
 #include "keenline/kernels/portable_math.h"
 
 #include "support/straight_path.h"
@@ -159,6 +160,15 @@ TEST(ConnectPaths, ALineThatPassesACornerIsCutThereHoweverWideThePointsAreApart)
     EXPECT_EQ(graph.corners.size(), 1U) << scale;
     EXPECT_EQ(graph.polylines.size(), 4U) << scale;
   }
+}
+
+TEST(ConnectPaths, CanBeCancelled) {
+  class Stopped : public Progress {
+   public:
+    [[nodiscard]] bool cancelled() const override { return true; }
+  };
+  EXPECT_THROW((void)connect_paths({straight_path({0, 0, 0}, {9, 0, 0}, y, z)}, frame, 6, Stopped()),
+               Cancelled);
 }
 
 }  // namespace

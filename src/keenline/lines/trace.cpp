@@ -222,7 +222,7 @@ FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search, 
   std::vector<Path> paths = trace_creases(cloud, search, labels, creases, frame, progress);
   const std::vector<Path> rims = trace_rims(cloud, search, labels, frame, progress);
   paths.insert(paths.end(), rims.begin(), rims.end());
-  FeatureGraph graph = connect_paths(std::move(paths), frame, options.min_length);
+  FeatureGraph graph = connect_paths(std::move(paths), frame, options.min_length, progress);
   count_support(graph, cloud, creases, LineKind::Crease, frame);
   count_support(graph, cloud, borders, LineKind::Border, frame);
   add_peaks(graph, cloud, labels, peaks, frame);
