@@ -51,7 +51,7 @@ struct FittedSpline {
 using FittedCurve = std::variant<std::monostate, FittedLine, FittedArc, FittedSpline>;
 
 /// The unit normals of the two surfaces that meet at a vertex; they point out of the body where that is
-/// known.
+/// known. Of lines traced from a cloud it is not: see Polyline::dihedral_deg.
 struct SideNormals {
   Point left{};  ///< seen from outside, looking along the line
   Point right{};
@@ -66,8 +66,10 @@ struct Polyline {
   /// closed line both are the corner at its first vertex, or none.
   std::optional<std::uint32_t> start_corner{};
   std::optional<std::uint32_t> end_corner{};
-  std::uint64_t support = 0;           ///< how many points of the cloud back it
-  std::vector<double> dihedral_deg{};  ///< angle between the surfaces inside the body; 180 is flat
+  std::uint64_t support = 0;  ///< how many points of the cloud back it
+  /// Angle between the surfaces inside the body; 180 is flat. Points alone do not say where the body is:
+  /// lines traced from a cloud are taken for convex, 0 to 180, and a concave edge reads 360 less its angle.
+  std::vector<double> dihedral_deg{};
   std::vector<SideNormals> normals{};
   std::vector<double> residual{};  ///< how far the vertex is from the surfaces or points that it stands for
   FittedCurve fitted{};            ///< what the vertices sample, where a curve was fitted

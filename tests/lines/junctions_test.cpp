@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "keenline/errors.h"
 #include "keenline/kernels/portable_math.h"
 
 #include "support/straight_path.h"
@@ -141,6 +142,33 @@ TEST(ConnectPaths, ALoopWithLinesIsCutAtItsCorners) {
   double length = 0;
   for (const Polyline& line : two.polylines) length += length_of(line);
   EXPECT_NEAR(length, 0.5 * (20 + 20 + 62.8), 0.5);
+}
+
+TEST(ConnectPaths, ALineThatPassesACornerIsCutThereHoweverWideThePointsAreApart) {
+  for (const double scale : {1.0, 30.0}) {
+    std::vector<Path> paths{straight_path({1, 0, 0}, {20, 0, 0}, y, z),
+                            straight_path({0, 1, 0}, {0, 20, 0}, x, z),
+                            straight_path({-15, 0, 1}, {15, 0, 1}, y, z)};
+    for (Path& path : paths) {
+      for (Foot& foot : path.feet) {
+        foot.position = scaled(scale, foot.position);
+        foot.scale = scale;
+      }
+    }
+    const FeatureGraph graph = connect_paths(paths, frame, 6);
+    validate(graph);
+    EXPECT_EQ(graph.corners.size(), 1U) << scale;
+    EXPECT_EQ(graph.polylines.size(), 4U) << scale;
+  }
+}
+
+TEST(ConnectPaths, CanBeCancelled) {
+  class Stopped : public Progress {
+   public:
+    [[nodiscard]] bool cancelled() const override { return true; }
+  };
+  EXPECT_THROW((void)connect_paths({straight_path({0, 0, 0}, {9, 0, 0}, y, z)}, frame, 6, Stopped()),
+               Cancelled);
 }
 
 }  // namespace

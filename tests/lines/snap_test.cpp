@@ -1,6 +1,7 @@
 #include "keenline/lines/snap.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -219,6 +220,27 @@ TEST(Snap, CanBeCancelled) {
   Stopped progress;
   EXPECT_THROW((void)snap_lines(scene.truth, scene.synth.cloud, scene.search, scene.spacing, {}, progress),
                Cancelled);
+}
+
+/// Cancels when all units of the stage are done.
+class StoppedLate : public Progress {
+ public:
+  void begin(std::string_view /*stage*/, std::uint64_t total) override { left_ = total; }
+  void advance(std::uint64_t units) override { left_ -= units; }
+  [[nodiscard]] bool cancelled() const override { return left_ == 0; }
+
+ private:
+  std::atomic<std::uint64_t> left_{1};
+};
+
+TEST(Snap, CanBeCancelledWhileLinesMove) {
+  const LineScene scene(shape_options("cube", 500));
+  StoppedLate progress;
+  SnapOptions options;
+  options.rounds = 1;
+  EXPECT_THROW(
+      (void)snap_lines(scene.truth, scene.synth.cloud, scene.search, scene.spacing, options, progress),
+      Cancelled);
 }
 
 }  // namespace

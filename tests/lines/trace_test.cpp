@@ -80,6 +80,24 @@ TEST(TraceLines, DoesNotDependOnPlaceAndScale) {
   }
 }
 
+TEST(TraceLines, ALabelledStrayFarOutCostsTheOthersNoDigits) {
+  LabelledShape shape = labelled_shape("cube", 3000);
+  const FeatureGraph graph = traced(shape);
+  // The first of the candidates, and the farthest.
+  std::vector<Point>& positions = shape.synth.cloud.positions;
+  positions.insert(positions.begin(), {1e20, -1e20, 1e20});
+  shape.labels.kind.insert(shape.labels.kind.begin(), Kind::Edge);
+  shape.labels.score.insert(shape.labels.score.begin(), 1.0F);
+  const NeighborSearch search(positions);
+  PointCloud cloud;
+  cloud.positions = positions;
+  const FeatureGraph with_stray = trace_lines(cloud, search, shape.labels, shape.spacing);
+  ASSERT_EQ(with_stray.polylines.size(), graph.polylines.size());
+  ASSERT_EQ(with_stray.corners.size(), graph.corners.size());
+  for (std::size_t i = 0; i < graph.corners.size(); ++i)
+    EXPECT_LT(distance(with_stray.corners[i].position, graph.corners[i].position), 1e-9 * shape.spacing);
+}
+
 TEST(TraceLines, DegenerateCloudsHaveNoLines) {
   PointCloud cloud;
   FeatureLabels labels;

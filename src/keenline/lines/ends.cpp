@@ -142,25 +142,33 @@ std::vector<std::vector<PathEnd>> gather_ends(const std::vector<Path>& paths) {
   std::vector<PathEnd> ends;
   for (std::size_t p = 0; p < paths.size(); ++p)
     if (!paths[p].closed) ends.insert(ends.end(), {{p, false}, {p, true}});
-  std::vector<std::vector<PathEnd>> groups;
+  std::vector<std::vector<std::size_t>> groups;  // of ends
   groups.reserve(ends.size());
-  for (const PathEnd& end : ends) groups.push_back({end});
+  for (std::size_t i = 0; i < ends.size(); ++i) groups.push_back({i});
+  const auto ends_of = [&](const std::vector<std::size_t>& group) {
+    std::vector<PathEnd> members;
+    members.reserve(group.size());
+    for (const std::size_t i : group) members.push_back(ends[i]);
+    return members;
+  };
   std::vector<std::size_t> group_of(ends.size());
   std::iota(group_of.begin(), group_of.end(), std::size_t{0});
   for (const Meeting& meeting : possible_meetings(paths, ends)) {
     const std::size_t a = group_of[meeting.first];
     const std::size_t b = group_of[meeting.second];
     if (a == b) continue;
-    std::vector<PathEnd> all = groups[a];
+    std::vector<std::size_t> all = groups[a];
     all.insert(all.end(), groups[b].begin(), groups[b].end());
-    if (!agree(paths, all)) continue;
+    if (!agree(paths, ends_of(all))) continue;
+    for (const std::size_t i : groups[b]) group_of[i] = a;
     groups[a] = std::move(all);
     groups[b].clear();
-    std::replace(group_of.begin(), group_of.end(), b, a);
   }
-  groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto& group) { return group.empty(); }),
-               groups.end());
-  return groups;
+  std::vector<std::vector<PathEnd>> gathered;
+  gathered.reserve(groups.size());
+  for (const std::vector<std::size_t>& group : groups)
+    if (!group.empty()) gathered.push_back(ends_of(group));
+  return gathered;
 }
 
 }  // namespace keenline

@@ -90,8 +90,9 @@ bool is_gap(const std::vector<Path>& paths, const std::vector<PathEnd>& ends) {
 }
 
 /// Closes the gaps in lines. Each join moves the ends of a path: the others wait for the next round.
-void close_gaps(std::vector<Path>& paths) {
+void close_gaps(std::vector<Path>& paths, const Progress& progress) {
   for (bool changed = true; changed;) {
+    progress.check();
     changed = false;
     std::vector<bool> touched(paths.size(), false);
     for (const std::vector<PathEnd>& ends : gather_ends(paths)) {
@@ -128,10 +129,11 @@ class CornerFinder {
         grid_.insert({p, static_cast<std::ptrdiff_t>(f), paths[p].feet[f]});
   }
 
-  [[nodiscard]] std::vector<Corner> find() const {
+  [[nodiscard]] std::vector<Corner> find(const Progress& progress) const {
     std::vector<Corner> corners;
     FootGrid places;
     for (std::vector<PathEnd>& ends : gather_ends(paths_)) {
+      progress.check();
       std::vector<const Foot*> feet;
       feet.reserve(ends.size() + 1);
       for (const PathEnd& end : ends) feet.push_back(&foot_at(paths_, end));
@@ -219,7 +221,10 @@ class CornerFinder {
   /// The lines that pass the corner without ending there.
   [[nodiscard]] std::vector<Passage> passages_at(const Corner& corner) const {
     std::vector<std::pair<double, Passage>> nearest;  // of each path
-    grid_.near(corner.at.position, 2 * passes, [&](const FootGrid::Entry& entry) {
+    double scale = 0;
+    for (const PathEnd& end : corner.ends) scale = std::max(scale, foot_at(paths_, end).scale);
+    // Twice as far: the points around the lines that pass may be wider apart.
+    grid_.near(corner.at.position, 2 * passes * scale, [&](const FootGrid::Entry& entry) {
       const double d = distance(entry.foot.position, corner.at.position);
       if (d > passes * entry.foot.scale) return;
       const auto is_it = [&](const PathEnd& end) { return end.path == entry.path; };
@@ -374,12 +379,13 @@ FeatureGraph graph_of(const std::vector<Piece>& pieces, const std::vector<Corner
 
 }  // namespace
 
-FeatureGraph connect_paths(std::vector<Path> paths, const TraceFrame& frame, double min_length) {
+FeatureGraph connect_paths(std::vector<Path> paths, const TraceFrame& frame, double min_length,
+                           const Progress& progress) {
   const auto is_scrap = [](const Path& path) { return path.feet.size() < fewest_feet; };
   paths.erase(std::remove_if(paths.begin(), paths.end(), is_scrap), paths.end());
   for (;;) {
-    close_gaps(paths);
-    const std::vector<Corner> corners = CornerFinder(paths, min_length).find();
+    close_gaps(paths, progress);
+    const std::vector<Corner> corners = CornerFinder(paths, min_length).find(progress);
     std::vector<Piece> pieces = pieces_of(paths, corners);
     const auto is_bad = [&](const Piece& piece) { return is_noise(piece, min_length); };
     if (std::none_of(pieces.begin(), pieces.end(), is_bad)) return graph_of(pieces, corners, frame);

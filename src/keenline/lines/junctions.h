@@ -4,6 +4,7 @@
 
 #include "keenline/feature_graph.h"
 #include "keenline/lines/foot.h"
+#include "keenline/progress.h"
 
 namespace keenline {
 
@@ -12,6 +13,8 @@ namespace keenline {
 /// squares). A line that ends loose, or leads back to its own corner, and is shorter than `min_length` is
 /// left out.
 /// \param paths and min_length in the frame
-[[nodiscard]] FeatureGraph connect_paths(std::vector<Path> paths, const TraceFrame& frame, double min_length);
+/// \throw Cancelled
+[[nodiscard]] FeatureGraph connect_paths(std::vector<Path> paths, const TraceFrame& frame, double min_length,
+                                         const Progress& progress = no_progress());
 
 }  // namespace keenline

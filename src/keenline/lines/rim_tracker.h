@@ -20,9 +20,11 @@ class RimTracker : public Tracker {
   RimTracker(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
              const TraceFrame& frame, const Progress& progress);
 
-  /// The border points, by which the feet and find() are numbered.
+  /// How many border points there are.
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
+  /// The rim near a border point, by its number among them in the order of the cloud: not the cloud's own.
+  /// \pre border_point < size()
   [[nodiscard]] std::optional<Foot> find(std::uint32_t border_point) const override;
   [[nodiscard]] std::optional<Foot> follow(const Foot& from, const Point& expected) const override;
 

@@ -175,6 +175,7 @@ class Snapping {
       add(moved.line.end_corner, moved.sides.back());
     }
     for (std::size_t c = 0; c < surfaces.size(); ++c) {
+      progress_.check();
       if (surfaces[c].empty()) continue;
       GraphCorner& corner = graph_.corners[c];
       const Point& first = first_corners_[c].position;
@@ -191,6 +192,7 @@ class Snapping {
     const ArcLength arc(before);
     Polyline& line = moved.line;
     for (std::size_t i = 0; i < line.vertices.size(); ++i) {
+      progress_.check();
       if (!moved.sides[i]) continue;
       const Meeting meeting = meet(line.vertices[i], surfaces_around(i, arc, before, moved.sides), spacing_);
       const bool is_credible = distance(meeting.place, moved.traced[i]) <= options_.largest_move * spacing_ &&

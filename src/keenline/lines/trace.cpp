@@ -80,6 +80,20 @@ std::vector<std::uint32_t> points_beside_bends(const std::vector<Path>& paths, c
   return points;
 }
 
+/// The median of each coordinate: a stray that was labelled, however far out, costs the others no digits.
+/// \pre !points.empty()
+Point middle_of(const PointCloud& cloud, const std::vector<std::uint32_t>& points) {
+  std::vector<double> values(points.size());
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  Point middle{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = cloud.positions[points[i]][axis];
+    std::nth_element(values.begin(), half, values.end());
+    middle[axis] = *half;
+  }
+  return middle;
+}
+
 /// Points that no graph may hold are no candidates, whatever was said of them.
 std::vector<std::uint32_t> points_of(std::initializer_list<Kind> kinds, const PointCloud& cloud,
                                      const FeatureLabels& labels) {
@@ -199,14 +213,16 @@ FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search, 
   const std::vector<std::uint32_t> creases = points_of({Kind::Edge, Kind::Corner}, cloud, labels);
   const std::vector<std::uint32_t> borders = points_of({Kind::Border}, cloud, labels);
   const std::vector<std::uint32_t> peaks = points_of({Kind::Peak}, cloud, labels);
-  if (!(spacing > 0) || (creases.empty() && borders.empty() && peaks.empty())) return {};
-  const std::uint32_t first = !creases.empty() ? creases[0] : !borders.empty() ? borders[0] : peaks[0];
-  const TraceFrame frame{cloud.positions[first], spacing};
+  const std::vector<std::uint32_t>& most_telling = !creases.empty()   ? creases
+                                                   : !borders.empty() ? borders
+                                                                      : peaks;
+  if (!(spacing > 0) || most_telling.empty()) return {};
+  const TraceFrame frame{middle_of(cloud, most_telling), spacing};
   progress.begin("tracing lines", 2 * (creases.size() + borders.size()));
   std::vector<Path> paths = trace_creases(cloud, search, labels, creases, frame, progress);
   const std::vector<Path> rims = trace_rims(cloud, search, labels, frame, progress);
   paths.insert(paths.end(), rims.begin(), rims.end());
-  FeatureGraph graph = connect_paths(std::move(paths), frame, options.min_length);
+  FeatureGraph graph = connect_paths(std::move(paths), frame, options.min_length, progress);
   count_support(graph, cloud, creases, LineKind::Crease, frame);
   count_support(graph, cloud, borders, LineKind::Border, frame);
   add_peaks(graph, cloud, labels, peaks, frame);

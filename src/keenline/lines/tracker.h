@@ -15,7 +15,7 @@ class Tracker {
   Tracker& operator=(const Tracker&) = delete;
   virtual ~Tracker() = default;
 
-  /// The line near a point of the cloud, if there is one.
+  /// The line near a point, if there is one. The tracker says how its points are numbered.
   [[nodiscard]] virtual std::optional<Foot> find(std::uint32_t point) const = 0;
 
   /// Where the line of a foot passes an expected position a spacing or so further on; its tangent points to

@@ -27,6 +27,7 @@ class WedgeTracker : public Tracker {
                const TraceFrame& frame)
       : cloud_(cloud), search_(search), labels_(labels), frame_(frame) {}
 
+  /// By its number in the cloud.
   [[nodiscard]] std::optional<Foot> find(std::uint32_t point) const override;
   [[nodiscard]] std::optional<Foot> follow(const Foot& from, const Point& expected) const override;
 
