@@ -13,6 +13,7 @@
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/synth/synth.h"
 
+#include "support/cancelled_progress.h"
 #include "support/report_file.h"
 #include "support/sample_graph.h"
 

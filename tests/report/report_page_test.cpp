@@ -12,6 +12,7 @@
 #include "keenline/io/sink.h"
 #include "keenline/report/report_data.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 #include "support/report_file.h"
 #include "support/sample_graph.h"
