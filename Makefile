@@ -29,6 +29,7 @@ check:
 	scripts/check.sh
 
 figures: build
+	scripts/setup.sh figures
 	scripts/figures.sh build/release/bin/keenline build/figures
 
 bench:

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what `make build`, `make test`, `make check` or `make bench` needs, where this is Debian or Ubuntu and we may.
+# Installs what `make build`, `make figures`, `make test`, `make check` or `make bench` needs, where this is Debian or Ubuntu and we may.
 # Elsewhere it prints what is missing and succeeds when nothing is.
 set -euo pipefail
 
-level=${1:?usage: scripts/setup.sh build|test|check|bench}
+level=${1:?usage: scripts/setup.sh build|figures|test|check|bench}
 packages=(g++ cmake ninja-build libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libpng-dev zlib1g-dev libsqlite3-dev libhwy-dev)
 tools=(c++ cmake ninja)
 # The page of reports is built with npm. Whoever has a Node keeps it.
@@ -14,6 +14,9 @@ fi
 headers=(Eigen/Core oneapi/tbb/parallel_for.h CLI/CLI.hpp fmt/format.h nlohmann/json.hpp fast_float/fast_float.h png.h zlib.h sqlite3.h hwy/highway.h)
 case $level in
   build) ;;
+  figures)
+    packages+=(chromium)
+    tools+=(chromium) ;;
   bench)
     packages+=(libbenchmark-dev libnanoflann-dev libcgal-dev libpcl-dev pkg-config)
     headers+=(benchmark/benchmark.h nanoflann.hpp) ;;
@@ -25,7 +28,7 @@ case $level in
     packages+=(libocct-data-exchange-dev clang-14 libclang-rt-14-dev clang-tidy-14 clang-format-14)
     tools+=(clang++-14 clang-tidy-14 clang-format-14) ;;
   test) ;;
-  *) echo "setup: unknown level '$level': expected build, test, check or bench" >&2; exit 2 ;;
+  *) echo "setup: unknown level '$level': expected build, figures, test, check or bench" >&2; exit 2 ;;
 esac
 
 if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
