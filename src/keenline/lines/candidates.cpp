@@ -57,7 +57,7 @@ Candidates::Candidates(const PointCloud& cloud, const NeighborSearch& search, co
   const std::vector<std::uint32_t>& points = placed_.points;
   // Both copies of the lists, for as long as it takes to put the one together.
   constexpr std::uint64_t bytes_per_candidate =
-      std::uint64_t{2 * neighbors_near} * sizeof(std::uint32_t) + 80;
+      2 * std::uint64_t{neighbors_near} * sizeof(std::uint32_t) + 80;
   require_memory(size() * bytes_per_candidate, "candidates of lines");
   std::vector<std::vector<std::uint32_t>> near(size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size(), 64),

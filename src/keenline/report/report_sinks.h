@@ -37,6 +37,8 @@ class ZlibSink : public Sink {
  public:
   /// \throw OutOfMemory
   explicit ZlibSink(Sink& target);
+  ZlibSink(const ZlibSink&) = delete;
+  ZlibSink& operator=(const ZlibSink&) = delete;
   ~ZlibSink() override;
   void write(std::string_view bytes) override;
   /// The last bytes. Nothing can be written after it.
