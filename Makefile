@@ -6,8 +6,9 @@
 # make bench       speed: neighbours, detection, rivals, as ratios in one run
 # make benchmark   accuracy on the benchmark clouds, where they are present
 # make benchmark-lines   lines against the true lines of the shapes
+# make benchmark-report   what the report of a million points costs a browser
 
-.PHONY: build demo test check figures bench benchmark benchmark-lines format clean
+.PHONY: build demo test check figures bench benchmark benchmark-lines benchmark-report format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -46,6 +47,10 @@ benchmark: build
 
 benchmark-lines: build
 	bench/lines_benchmark.sh build/release/bin/keenline build/lines
+
+benchmark-report: build
+	scripts/setup.sh figures
+	bench/report_benchmark.sh build/release build/report
 
 format:
 	scripts/setup.sh check
