@@ -32,6 +32,8 @@ check:
 figures: build
 	scripts/setup.sh figures
 	scripts/figures.sh build/release/bin/keenline build/figures
+	scripts/models.sh build/models
+	scripts/report_figures.sh build/release/bin/keenline build/models build/figures
 
 bench:
 	scripts/setup.sh bench

@@ -40,6 +40,16 @@ sphere 12000
 torus 12000
 plane 12000
 vase 12000
+rounded-cube 12000
 trim-star 30000
 fandisk 30000
 SHAPES
+
+# What drawing costs beside finding: the time of the line stage by that of detection.
+for points in 100000 1000000; do
+  "$keenline" synth fandisk --points "$points" --noise 0.05h -o "$folder/large.ply" --quiet
+  "$keenline" lines "$folder/large.ply" -o "$folder/large.dxf" --json "$@" | python3 -c '
+import json, sys
+seconds = json.load(sys.stdin)["timings_s"]
+print(f"fandisk, {int(sys.argv[1]):,} points, noise 0.05h: lines / detection {seconds['"'lines'"'] / seconds['"'detect'"']:.2f}")' "$points"
+done

@@ -122,20 +122,12 @@ for name in pauly gumhold; do
   sheet "$name-kinds" --columns 3 --size 370,300
 done
 
-# Reports as a browser shows them: a CAD part with the Gauss map of its first edge point, a scan of a building, noise.
-# page NAME [#VIEW]: NAME.html of the work folder
-page() {
-  chromium --headless=new --no-sandbox --hide-scrollbars --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
-    --window-size=1200,960 --virtual-time-budget=20000 --screenshot="$folder/report-$1.png" "file://$work/$1.html${2:-}" 2>/dev/null
-}
-"$(dirname "$0")/models.sh" "$(dirname "$folder")/models"
-models=$(dirname "$folder")/models/data
-"$keenline" lines "$models/meshes/fandisk.off" --report "$work/fandisk.html" --quiet
-"$keenline" detect "$models/meshes/fandisk.off" -o "$work/fandisk.csv" --quiet
-on_edge=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "kind") kind = i; next } $kind == 2 { print NR - 2; exit }' "$work/fandisk.csv")
-page fandisk "#point=$on_edge"
-"$keenline" lines "$models/points_3/building.ply" --report "$work/building.html" --quiet
-page building
-"$keenline" synth cube -o "$work/noisy-cube.ply" --points 20000 --noise 0.1h --quiet
-"$keenline" lines "$work/noisy-cube.ply" --report "$work/noisy-cube.html" --quiet
-page noisy-cube
+# The last stage of the published methods: each one's own lines from its own labels, as traced and moved onto the design line.
+for name in gumhold pauly demarsin tensor_voting; do
+  for step in no-snap snap; do
+    lines=$work/$name-$step.json
+    "$keenline" lines "$work/default-fandisk-random.ply" -o "$lines" --method "$name" --trace "$name" "--$step" --quiet
+    shown+=("$work/default-fandisk-random.ply" --lines "$lines" --caption "$([ $step = snap ] && echo snapped || echo "as traced")")
+  done
+  sheet "${name//_/-}-lines" --columns 2 --size 555,400
+done

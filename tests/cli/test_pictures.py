@@ -201,10 +201,10 @@ class Figures(FolderTest):
         result = subprocess.run([script, PROGRAM, self.path("figures")], capture_output=True, text=True, env=environment, timeout=600)
         self.assertEqual(result.returncode, 0, result.stderr)
         names = sorted(os.listdir(self.path("figures")))
-        self.assertEqual(names, ["default.png", "demarsin-score.png", "demarsin.png", "figure2-cube.png", "figure2-sphere.png", "figure4-fandisk.png", "figure4-icosahedron.png",
+        self.assertEqual(names, ["default.png", "demarsin-lines.png", "demarsin-score.png", "demarsin.png", "figure2-cube.png", "figure2-sphere.png", "figure4-fandisk.png", "figure4-icosahedron.png",
                                  "figure5-bounding-box.png", "figure5-spacing.png", "figure6.png",
-                                 "gumhold-kinds.png", "gumhold-score.png", "pauly-kinds.png", "pauly-score.png",
-                                 "tensor-voting-score.png", "tensor-voting.png"])
+                                 "gumhold-kinds.png", "gumhold-lines.png", "gumhold-score.png", "pauly-kinds.png", "pauly-lines.png",
+                                 "pauly-score.png", "tensor-voting-lines.png", "tensor-voting-score.png", "tensor-voting.png"])
         pages = (script.parent.parent / "docs" / "methods").glob("*.md")
         shown = "".join(page.read_text() for page in pages)
         for name in names:
