@@ -19,6 +19,7 @@
 #include "keenline/io/read.h"
 #include "keenline/io/write.h"
 #include "keenline/lines/fit.h"
+#include "keenline/lines/join_lines.h"
 #include "keenline/lines/resample.h"
 #include "keenline/lines/sides.h"
 #include "keenline/lines/smooth.h"
@@ -252,7 +253,7 @@ FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, con
                       double spacing, const LinesJob& job, Progress& progress) {
   if (!(spacing > 0)) return {};  // no surface, no lines
   FeatureGraph graph = find_tracer(job.trace).trace(cloud, search, labels, spacing, progress);
-  if (job.snap) graph = snap_lines(graph, cloud, search, spacing, {}, progress);
+  if (job.snap) graph = join_lines(snap_lines(graph, cloud, search, spacing, {}, progress), spacing);
   else if (job.smooth_lines) graph = smooth_lines(graph);
   if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing, progress);
   if (job.fit_spacings > 0) graph = fit_lines(graph, job.fit_spacings * spacing, progress);

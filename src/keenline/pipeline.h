@@ -119,7 +119,7 @@ struct LinesJob {
   OptionValues options;  ///< as in DetectJob
   Smoothing smoothing = Smoothing::Auto;
   std::string trace = "walk";  ///< a name from line_tracers()
-  bool snap = true;            ///< onto the intersection of the surfaces, see snap_lines()
+  bool snap = true;            ///< onto the intersection of the surfaces, see snap_lines(), join_lines()
   bool smooth_lines = true;    ///< see smooth_lines(); what is snapped needs none
   double resample_spacings =
       0;  ///< >= 0: distance of the vertices in spacings, see resample_lines(); 0 = as they are
