@@ -1,5 +1,6 @@
 // What one point costs in each kernel, on every instruction set of this CPU: names end in the one that ran.
 // Compare within one run: --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -80,6 +81,14 @@ void measure_linkage(Point& point, Dendrogram& dendrogram) {
   dendrogram.cluster(point);
 }
 
+/// How the cost grows: the first lines of a point only.
+template <int count>
+void measure_some(Point& point, Dendrogram& dendrogram) {
+  Point some = point;
+  some.count = std::min(count, point.count);
+  measure_linkage(some, dendrogram);
+}
+
 void measure_all(Point& point, Dendrogram& dendrogram) {
   point.find_lines();
   measure_linkage(point, dendrogram);
@@ -113,6 +122,7 @@ int main(int argc, char** argv) {
   add("triangle_lines", measure_lines);
   add("line_angles", measure_angles);
   add("line_angles+average_linkage", measure_linkage);
+  add("line_angles+average_linkage of 60 lines", measure_some<60>);
   add("whole_point", measure_all);
   add("all_within", measure_all_within);
   benchmark::AddCustomContext("best target", std::string(target()));

@@ -19,6 +19,7 @@
 #include "keenline/neighborhood/neighborhoods.h"
 #include "keenline/synth/synth.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 #include "support/textbook_gauss.h"
 
@@ -443,15 +444,10 @@ TEST(Gauss, RefusesOptionsOutOfRange) {
   EXPECT_THROW((void)detect_gauss(PointCloud{}, neighborhoods), InvalidArgument);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Gauss, CanBeCancelled) {
   const PointCloud cloud = shape("cube", 100).cloud;
   const Neighborhoods neighborhoods = find_neighborhoods(cloud, 16);
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)detect_gauss(cloud, neighborhoods, {}, progress), Cancelled);
 }
 

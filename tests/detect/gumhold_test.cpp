@@ -18,21 +18,15 @@
 
 #include "support/expect_error.h"
 #include "support/motion.h"
+#include "support/shapes.h"
 
 namespace keenline {
 namespace {
 
 using test::expect_error;
+using test::shape;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-PointCloud shape(const std::string& name, std::uint64_t points, double noise_h = 0) {
-  SynthOptions options;
-  options.shape = name;
-  options.points = points;
-  options.noise.amount = noise_h;
-  return synthesize(options).cloud;
-}
 
 FeatureLabels labels_of(const PointCloud& cloud, const GumholdOptions& options = {}) {
   return detect_gumhold(cloud, NeighborSearch(cloud.positions), options);

@@ -25,11 +25,13 @@
 
 #include "support/cancelled_progress.h"
 #include "support/expect_error.h"
+#include "support/shapes.h"
 
 namespace keenline {
 namespace {
 
 using test::expect_error;
+using test::shape;
 
 const OptionInfo& option(std::string_view name) {
   for (const OptionInfo& info : find_method("gauss").options)
@@ -265,14 +267,6 @@ FeatureLabels labels_by(const Method& method, const PointCloud& cloud, Progress&
   OptionValues values = resolve_options(method, {});
   method.adapt(values, 0, cloud.size());
   return method.detect(cloud, NeighborSearch(cloud.positions), values, progress);
-}
-
-PointCloud shape(const std::string& name, std::uint64_t points, double noise_h = 0) {
-  SynthOptions options;
-  options.shape = name;
-  options.points = points;
-  options.noise.amount = noise_h;
-  return synthesize(options).cloud;
 }
 
 TEST(Registry, NoMethodDependsOnTheOrderOfThePoints) {

@@ -7,6 +7,7 @@
 #include "keenline/errors.h"
 #include "keenline/kernels/portable_math.h"
 
+#include "support/cancelled_progress.h"
 #include "support/straight_path.h"
 
 namespace keenline {
@@ -163,12 +164,9 @@ TEST(ConnectPaths, ALineThatPassesACornerIsCutThereHoweverWideThePointsAreApart)
 }
 
 TEST(ConnectPaths, CanBeCancelled) {
-  class Stopped : public Progress {
-   public:
-    [[nodiscard]] bool cancelled() const override { return true; }
-  };
-  EXPECT_THROW((void)connect_paths({straight_path({0, 0, 0}, {9, 0, 0}, y, z)}, frame, 6, Stopped()),
-               Cancelled);
+  EXPECT_THROW(
+      (void)connect_paths({straight_path({0, 0, 0}, {9, 0, 0}, y, z)}, frame, 6, test::CancelledProgress()),
+      Cancelled);
 }
 
 }  // namespace

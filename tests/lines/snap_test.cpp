@@ -13,6 +13,7 @@
 #include "keenline/evaluate/compare_graphs.h"
 #include "keenline/vectors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/motion.h"
 #include "support/rough_lines.h"
 
@@ -210,14 +211,9 @@ TEST(Snap, RefusesWhatIsOutOfRange) {
   EXPECT_THROW(snap(1, {.sides = {.stretch = 0}}), InvalidArgument);
 }
 
-class Stopped : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Snap, CanBeCancelled) {
   const LineScene scene(shape_options("cube", 500));
-  Stopped progress;
+  test::CancelledProgress progress;
   EXPECT_THROW((void)snap_lines(scene.truth, scene.synth.cloud, scene.search, scene.spacing, {}, progress),
                Cancelled);
 }

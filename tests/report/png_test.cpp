@@ -8,6 +8,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -86,14 +87,9 @@ TEST(Png, WhatDoesNotCompressHasRoomToo) {
   expect_equal(decoded(png_bytes(image)), image);
 }
 
-class Stop : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Png, CanBeStopped) {
   const test::TemporaryFolder folder;
-  Stop stop;
+  test::CancelledProgress stop;
   EXPECT_THROW(write_png(folder.file("a.png"), colorful(20, 10), stop), Cancelled);
   EXPECT_EQ(folder.entries(), 0U);
 }

@@ -8,6 +8,7 @@
 
 #include "keenline/errors.h"
 
+#include "support/cancelled_progress.h"
 #include "support/expect_error.h"
 
 namespace keenline {
@@ -135,13 +136,8 @@ TEST(Splats, OptionsOutOfRangeAreRefused) {
   test::expect_error<InvalidArgument>([&] { (void)draw_splats({}, options); }, "1 to 8");
 }
 
-class Stop : public Progress {
- public:
-  [[nodiscard]] bool cancelled() const override { return true; }
-};
-
 TEST(Splats, CanBeStopped) {
-  Stop stop;
+  test::CancelledProgress stop;
   EXPECT_THROW((void)draw_splats({}, size(10, 10), stop), Cancelled);
 }
 
