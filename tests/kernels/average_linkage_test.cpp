@@ -49,7 +49,7 @@ std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
 }
 
 template <typename Sum>
-std::vector<Merge> by_chain(const Matrix& distances, std::size_t n) {
+std::vector<Merge> by_nearest(const Matrix& distances, std::size_t n) {
   const std::size_t row = row_length(static_cast<int>(n));
   std::vector<Sum> sums(n * row, 4711);
   for (std::size_t i = 0; i < n; ++i)
@@ -82,14 +82,14 @@ Matrix random_matrix(std::size_t n, std::uint32_t levels, unsigned seed) {
 TEST(AverageLinkage, ThreeItemsByHand) {
   // 0 and 1 are 10 apart, 2 is 20 and 40 from them: 30 on average.
   const Matrix distances{0, 10, 20, 10, 0, 40, 20, 40, 0};
-  const auto merges = by_chain<std::uint32_t>(distances, 3);
+  const auto merges = by_nearest<std::uint32_t>(distances, 3);
   EXPECT_EQ(sorted_keys(merges), (std::vector<Key>{{10.0, 0, 1, 1, 1}, {30.0, 0, 2, 2, 1}}));
 }
 
 TEST(AverageLinkage, TiesMergeTheSmallestIndexFirst) {
   // A path 0 - 1 - 2 with equal steps: 0 and 1 first.
   const Matrix distances{0, 10, 30, 10, 0, 10, 30, 10, 0};
-  EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, 3)),
+  EXPECT_EQ(sorted_keys(by_nearest<std::uint32_t>(distances, 3)),
             (std::vector<Key>{{10.0, 0, 1, 1, 1}, {20.0, 0, 2, 2, 1}}));
 }
 
@@ -98,9 +98,10 @@ TEST(AverageLinkage, EqualsTheDefinitionOnRandomDistances) {
     const std::size_t n = 2 + seed;
     const Matrix distances = random_matrix(n, 65520, seed);
     const auto expected = sorted_keys(by_definition(distances, n));
-    on_each_target(
-        [&] { EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected) << "seed " << seed; });
-    EXPECT_EQ(sorted_keys(by_chain<std::uint64_t>(distances, n)), expected) << "seed " << seed;
+    on_each_target([&] {
+      EXPECT_EQ(sorted_keys(by_nearest<std::uint32_t>(distances, n)), expected) << "seed " << seed;
+    });
+    EXPECT_EQ(sorted_keys(by_nearest<std::uint64_t>(distances, n)), expected) << "seed " << seed;
   }
 }
 
@@ -111,7 +112,7 @@ TEST(AverageLinkage, EqualsTheDefinitionWhereMostDistancesAreTies) {
       const Matrix distances = random_matrix(n, levels, seed);
       const auto expected = sorted_keys(by_definition(distances, n));
       on_each_target([&] {
-        EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected)
+        EXPECT_EQ(sorted_keys(by_nearest<std::uint32_t>(distances, n)), expected)
             << levels << " levels, seed " << seed;
       });
     }
@@ -124,7 +125,7 @@ TEST(AverageLinkage, HoldsTheLargestSums) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
       if ((i < n / 2) == (j < n / 2)) distances[i * n + j] = 0;
-  const auto merges = by_chain<std::uint32_t>(distances, n);
+  const auto merges = by_nearest<std::uint32_t>(distances, n);
   const auto highest = std::max_element(merges.begin(), merges.end(),
                                         [](const Merge& a, const Merge& b) { return a.height < b.height; });
   EXPECT_EQ(highest->height, 65520);
@@ -136,7 +137,7 @@ TEST(AverageLinkage, PartsComeBeforeTheWholeAndAreNotHigher) {
   const Matrix distances = random_matrix(60, 65520, 7);
   std::vector<double> height(60, 0.0);
   std::vector<std::uint32_t> size(60, 1);
-  for (const Merge& merge : by_chain<std::uint32_t>(distances, 60)) {
+  for (const Merge& merge : by_nearest<std::uint32_t>(distances, 60)) {
     EXPECT_EQ(merge.first_size, size[merge.first]);
     EXPECT_EQ(merge.second_size, size[merge.second]);
     EXPECT_GE(merge.height, std::max(height[merge.first], height[merge.second]));
@@ -179,7 +180,7 @@ TEST(AverageLinkage, GivesTheSameListOnEveryTargetForAnyNumberOfItems) {
       std::vector<Key> expected;
       on_each_target([&] {
         std::vector<Key> found;  // not sorted
-        for (const Merge& m : by_chain<std::uint32_t>(distances, n))
+        for (const Merge& m : by_nearest<std::uint32_t>(distances, n))
           found.emplace_back(m.height, m.first, m.second, m.first_size, m.second_size);
         if (target_is_scalar()) expected = found;
         ASSERT_EQ(found, expected) << n;
@@ -214,7 +215,8 @@ TEST(AverageLinkage, ComparesMeansThatFloatsCannotTellApart) {
       });
     };
     EXPECT_TRUE(has_first_partner(extra == 0 ? 10 : 10 * extra));
-    on_each_target([&] { EXPECT_EQ(sorted_keys(by_chain<std::uint32_t>(distances, n)), expected) << extra; });
+    on_each_target(
+        [&] { EXPECT_EQ(sorted_keys(by_nearest<std::uint32_t>(distances, n)), expected) << extra; });
   }
 }
 
@@ -225,7 +227,7 @@ TEST(AverageLinkage, HoldsTheLargestSumsOfVectors) {
       for (std::size_t j = 0; j < n; ++j)
         if (i % 2 == j % 2) distances[i * n + j] = 0;
     on_each_target([&] {
-      const auto merges = by_chain<std::uint32_t>(distances, n);
+      const auto merges = by_nearest<std::uint32_t>(distances, n);
       EXPECT_EQ(merges.back().height, 65520);
       EXPECT_EQ(merges.back().first_size, (n + 1) / 2);
       EXPECT_EQ(std::count_if(merges.begin(), merges.end(), [](const Merge& m) { return m.height > 0; }), 1);

@@ -15,11 +15,14 @@ void GaussMap::collect(const std::vector<Point>& positions, const Point& p,
   double largest = gather_offsets(positions, p, neighbors, 1);
   // The difference of two large coordinates may leave the range of doubles; that of their halves does not.
   if (std::isinf(largest)) largest = gather_offsets(positions, p, neighbors, 0.5);
+  // A power of two, in two halves that both are numbers when the whole is not.
   const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
-  lengths_.clear();
-  for (Point& offset : offsets_) {
-    for (double& coordinate : offset) coordinate = std::ldexp(coordinate, exponent);
-    lengths_.push_back(length(offset));
+  const double half = std::ldexp(1.0, exponent / 2);
+  const double other_half = std::ldexp(1.0, exponent - exponent / 2);
+  lengths_.resize(offsets_.size());
+  for (std::size_t i = 0; i < offsets_.size(); ++i) {
+    for (double& coordinate : offsets_[i]) coordinate = coordinate * half * other_half;
+    lengths_[i] = length(offsets_[i]);
   }
   find_lines();
 }
@@ -27,13 +30,14 @@ void GaussMap::collect(const std::vector<Point>& positions, const Point& p,
 /// Fills offsets_ with factor * (q - p); returns the largest coordinate in absolute value.
 double GaussMap::gather_offsets(const std::vector<Point>& positions, const Point& p,
                                 std::span<const std::uint32_t> neighbors, double factor) {
-  offsets_.clear();
+  offsets_.resize(neighbors.size());
   double largest = 0;
-  for (const std::uint32_t q : neighbors) {
-    Point& offset = offsets_.emplace_back();
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    const Point& q = positions[neighbors[i]];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      offset[axis] = positions[q][axis] * factor - p[axis] * factor;
-      largest = std::max(largest, std::abs(offset[axis]));
+      const double offset = q[axis] * factor - p[axis] * factor;
+      offsets_[i][axis] = offset;
+      largest = std::max(largest, std::abs(offset));
     }
   }
   return largest;
@@ -72,11 +76,20 @@ void GaussMap::cluster() {
 }
 
 Point GaussMap::common_direction() const {
-  kernels::Symmetric3 tensor;
-  for (std::size_t i = 0; i < x_.size(); ++i)
-    kernels::add_outer_product(tensor, static_cast<double>(x_[i]), static_cast<double>(y_[i]),
+  const auto add = [&](std::size_t i, kernels::Symmetric3& sum) {
+    kernels::add_outer_product(sum, static_cast<double>(x_[i]), static_cast<double>(y_[i]),
                                static_cast<double>(z_[i]));
-  return kernels::eigen_decomposition(tensor).vectors[0];
+  };
+  // Two sums side by side: one would wait for its every addition.
+  kernels::Symmetric3 tensor;
+  kernels::Symmetric3 other;
+  std::size_t i = 0;
+  for (; i + 2 <= x_.size(); i += 2) {
+    add(i, tensor);
+    add(i + 1, other);
+  }
+  if (i < x_.size()) add(i, tensor);
+  return kernels::eigen_decomposition(kernels::sum(tensor, other)).vectors[0];
 }
 
 std::uint64_t GaussMap::memory(int neighbors) {

@@ -128,7 +128,8 @@ Cone cone_from_point(const GaussMap& map) {
   return cone;
 }
 
-/// From there with an apex of its own (Levenberg and Marquardt); exact cones take four to six steps.
+/// From there with an apex of its own (Levenberg and Marquardt), until a step brings nothing to speak of;
+/// exact cones take four to six steps.
 Cone fitted_cone(const GaussMap& map) {
   Cone cone = cone_from_point(map);
   double sum = misfit(map, cone);
@@ -137,8 +138,10 @@ Cone fitted_cone(const GaussMap& map) {
     const Cone next = improved(map, cone, damping);
     const double next_sum = misfit(map, next);
     if (next_sum < sum) {
+      const bool has_arrived = next_sum > 0.999 * sum;
       cone = next;
       sum = next_sum;
+      if (has_arrived) break;
       damping *= 0.1;
     } else {
       damping *= 10;

@@ -42,9 +42,10 @@ constexpr std::uint32_t self = 0x8000'0000U;
 struct Clusters {
   std::uint32_t* sums;
   std::size_t stride;
-  std::size_t columns;  // whole vectors
+  std::size_t columns;  // whole pairs of vectors
   LinkageWorkspace::Cluster* clusters;
   float* weights;  // 1 / size; not a number for those that were merged into others, and beyond the last
+  const std::uint32_t* names;  // 0, 1, 2 …
   std::uint32_t index_mask;
   std::uint32_t newest = none;  // of those made of others
 
@@ -72,15 +73,13 @@ HWY_INLINE Word keys_of(Word sums, const float* weights) {
   return hn::BitCast(Words(), means);
 }
 
-/// The two smallest keys of a row, whose last bits give way to their place in the row.
+/// The two smallest keys of a row, whose last bits give way to their names.
 class TwoSmallest {
  public:
   explicit TwoSmallest(std::uint32_t index_mask) : mask_(hn::Set(Words(), ~index_mask)) {}
 
-  HWY_INLINE void add(Word keys) {
-    const Words d;
-    const Word marked = hn::OrAnd(place_, keys, mask_);
-    place_ = hn::Add(place_, hn::Set(d, static_cast<std::uint32_t>(hn::Lanes(d))));
+  HWY_INLINE void add(Word keys, const std::uint32_t* names) {
+    const Word marked = hn::Or(hn::And(keys, mask_), hn::LoadU(Words(), names));
     second_ = hn::Min(second_, hn::Max(first_, marked));
     first_ = hn::Min(first_, marked);
   }
@@ -95,7 +94,6 @@ class TwoSmallest {
 
  private:
   Word mask_;
-  Word place_ = hn::Iota(Words(), 0);
   Word first_ = hn::Set(Words(), none);
   Word second_ = hn::Set(Words(), none);
 };
@@ -139,8 +137,13 @@ HWY_INLINE std::uint32_t nearest(const Clusters& clusters, std::size_t name) {
   const Words d;
   const std::uint32_t* const row = current_row(clusters, name);
   TwoSmallest smallest(clusters.index_mask);
-  for (std::size_t i = 0; i < clusters.columns; i += hn::Lanes(d))
-    smallest.add(keys_of(hn::LoadU(d, row + i), clusters.weights + i));
+  const auto look = [&](std::size_t i) HWY_ATTR {
+    smallest.add(keys_of(hn::LoadU(d, row + i), clusters.weights + i), clusters.names + i);
+  };
+  for (std::size_t i = 0; i < clusters.columns; i += 2 * hn::Lanes(d)) {
+    look(i);
+    look(i + hn::Lanes(d));
+  }
   return nearest_by(clusters, row, smallest);
 }
 
@@ -173,10 +176,14 @@ HWY_INLINE Merge join(Clusters& clusters, std::uint32_t a, std::uint32_t b, std:
 
   const Words d;
   TwoSmallest smallest(clusters.index_mask);
-  for (std::size_t i = 0; i < clusters.columns; i += hn::Lanes(d)) {
+  const auto add = [&](std::size_t i) HWY_ATTR {
     const Word sums = hn::Add(hn::LoadU(d, row + i), hn::LoadU(d, added + i));
     hn::StoreU(sums, d, row + i);
-    smallest.add(keys_of(sums, clusters.weights + i));
+    smallest.add(keys_of(sums, clusters.weights + i), clusters.names + i);
+  };
+  for (std::size_t i = 0; i < clusters.columns; i += 2 * hn::Lanes(d)) {
+    add(i);
+    add(i + hn::Lanes(d));
   }
   first.nearest = nearest_by(clusters, row, smallest);
   first.nearest_size = clusters[first.nearest].size;
@@ -185,30 +192,32 @@ HWY_INLINE Merge join(Clusters& clusters, std::uint32_t a, std::uint32_t b, std:
 
 Clusters prepared(std::uint32_t* sums, int count, LinkageWorkspace& workspace) {
   const auto n = static_cast<std::size_t>(count);
-  const std::size_t lanes = hn::Lanes(Words());
+  const std::size_t lanes = 2 * hn::Lanes(Words());
   const std::size_t columns = (n + lanes - 1) / lanes * lanes;
   workspace.clusters.assign(
       columns,
       {.size = 1, .birth = 0, .seen = 0, .older = none, .newer = none, .nearest = 0, .nearest_size = 0});
   workspace.weights.assign(columns, std::numeric_limits<float>::quiet_NaN());
   std::fill_n(workspace.weights.begin(), n, 1.0F);
-  workspace.chain.resize(n);
+  if (workspace.names.size() < columns) {
+    workspace.names.resize(columns);
+    std::iota(workspace.names.begin(), workspace.names.end(), 0U);
+  }
   return {sums,
           row_length(count),
           columns,
           workspace.clusters.data(),
           workspace.weights.data(),
+          workspace.names.data(),
           static_cast<std::uint32_t>(std::bit_ceil(columns) - 1)};
 }
 
 /// \pre 0 < count <= largest_count_of_vectors
 void cluster(std::uint32_t* sums, int count, LinkageWorkspace& workspace, Merge* merges) {
   Clusters clusters = prepared(sums, count, workspace);
-  std::uint32_t* const chain = workspace.chain.data();
-  std::size_t length = 0;
-  for (std::uint32_t number = 1; number < static_cast<std::uint32_t>(count);) {
-    if (length == 0) chain[length++] = 0;
-    const std::uint32_t top = chain[length - 1];
+  const Merge* const end = merges + count - 1;
+  std::uint32_t before = none;
+  for (std::uint32_t top = 0, number = 1; merges != end;) {
     auto& cluster = clusters[top];
     // The nearest stays the nearest until it is merged itself, see average_linkage().
     if (cluster.nearest_size == 0 || clusters[cluster.nearest].size != cluster.nearest_size) {
@@ -216,12 +225,14 @@ void cluster(std::uint32_t* sums, int count, LinkageWorkspace& workspace, Merge*
       cluster.nearest_size = clusters[cluster.nearest].size;
     }
     const std::uint32_t next = cluster.nearest;
-    if (length < 2 || chain[length - 2] != next) {
-      chain[length++] = next;
+    if (next != before) {
+      before = top;
+      top = next;
       continue;
     }
-    length -= 2;
     *merges++ = join(clusters, std::min(top, next), std::max(top, next), number++);
+    top = std::min(top, next);
+    before = none;
   }
 }
 
@@ -320,30 +331,24 @@ bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* m
   const auto n = static_cast<std::size_t>(count);
   workspace.slots.resize(n);
   for (std::size_t i = 0; i < n; ++i) workspace.slots[i] = {static_cast<std::uint32_t>(i), 1};
-  // The chain holds slots; each is the nearest of the one before, and pairs come ever closer along it.
-  std::vector<std::uint32_t>& chain = workspace.chain;
-  chain.clear();
   Clusters<Sum> clusters{sums, row_length(count), workspace.slots.data(), n};
 
-  while (clusters.active > 1) {
+  std::size_t before = n;  // none
+  for (std::size_t top = 0; clusters.active > 1;) {
     if (stop != nullptr && stop(stop_argument)) return false;
-    if (chain.empty()) chain.push_back(0);  // the lower slot of a pair is kept: item 0 is always there
-    const std::size_t top = chain.back();
     const std::size_t next = nearest(clusters, top);
-    if (chain.size() < 2 || chain[chain.size() - 2] != next) {
-      chain.push_back(static_cast<std::uint32_t>(next));
+    if (next != before) {
+      before = top;
+      top = next;
       continue;
     }
     // Each is the other's nearest: no later merge can come between them, because mean distances never shrink
     // below the smaller of their parts (average linkage is reducible), and names never fall below the smaller
     // either.
-    chain.resize(chain.size() - 2);
     *merges++ = merged(clusters, top, next);
-    const std::size_t last = clusters.active - 1;
-    const std::size_t freed = std::max(top, next);
-    join(clusters, std::min(top, next), freed);
-    for (std::uint32_t& slot : chain)
-      if (slot == last) slot = static_cast<std::uint32_t>(freed);
+    join(clusters, std::min(top, next), std::max(top, next));
+    top = std::min(top, next);
+    before = n;
   }
   return true;
 }

@@ -27,17 +27,18 @@ struct LinkageWorkspace {
     std::uint32_t nearest, nearest_size;  // as found; out of date when that has another size
   };
   std::vector<Slot> slots;
-  std::vector<std::uint32_t> chain;
   // Of the vector targets, by name of the cluster.
   std::vector<Cluster> clusters;
   std::vector<float> weights;
+  std::vector<std::uint32_t> names;
 };
 
 /// Average-linkage clustering of `count` items, exact in whole numbers.
 /// Always merges the closest pair of clusters; equal distances in the order of (smaller name, larger name).
-/// The pairs are found by nearest-neighbour chain that begins at the cluster of item 0, in O(count^2), so
-/// that merges come in another order than by height: but a cluster comes after what it consists of, and no
-/// cluster is lower than its parts.
+/// The pairs are found by going from each cluster to its nearest, first from item 0, until two are each
+/// other's nearest, and on from what they become: about 3 count searches of a row. So merges come in another
+/// order than by height, but a cluster comes after what it consists of, and no cluster is lower than its
+/// parts.
 /// \param sums  in: distances between items, sums[i * row_length(count) + j], symmetric, each <= 65520;
 ///              destroyed. Sum = std::uint32_t holds up to 512 items, std::uint64_t any number.
 /// \param merges out: count - 1 entries

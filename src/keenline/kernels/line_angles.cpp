@@ -54,11 +54,10 @@ HWY_INLINE Int angles_of(Float cosines) {
   const Ints di;
   const Float c = hn::Min(hn::Abs(cosines), hn::Set(d, 1.0F));
   Float p = hn::Set(d, arc_cosine_polynomial[0]);
-  for (std::size_t i = 1; i < 8; ++i) p = hn::Add(hn::Mul(p, c), hn::Set(d, arc_cosine_polynomial[i]));
+  for (std::size_t i = 1; i < arc_cosine_polynomial.size(); ++i)
+    p = hn::Add(hn::Mul(p, c), hn::Set(d, arc_cosine_polynomial[i]));
   const Float root = hn::Sqrt(hn::Sub(hn::Set(d, 1.0F), c));
-  const Float units =
-      hn::Add(hn::Mul(hn::Mul(root, p), hn::Set(d, angle_units_per_radian)), hn::Set(d, 0.5F));
-  return hn::Min(hn::ConvertTo(di, units), hn::Set(di, static_cast<std::int32_t>(right_angle)));
+  return hn::ConvertTo(di, hn::Add(hn::Mul(root, p), hn::Set(d, 0.5F)));
 }
 
 /// Four rows of as many numbers as a vector has: column by column, those of column 4 b + r at
@@ -155,8 +154,7 @@ std::uint32_t line_angle(float cosine) {
   const float c = std::min(std::abs(cosine), 1.0F);
   float p = arc_cosine_polynomial[0];
   for (std::size_t i = 1; i < arc_cosine_polynomial.size(); ++i) p = p * c + arc_cosine_polynomial[i];
-  const float units = std::sqrt(1.0F - c) * p * angle_units_per_radian + 0.5F;
-  return std::min(static_cast<std::uint32_t>(units), right_angle);
+  return static_cast<std::uint32_t>(std::sqrt(1.0F - c) * p + 0.5F);
 }
 
 template <typename Sum>

@@ -12,13 +12,12 @@ namespace keenline::kernels {
 inline constexpr double angle_units_per_degree = 728.0;
 inline constexpr std::uint32_t right_angle = 65520;
 
-/// acos(c) = sqrt(1 - c) P(c) for 0 <= c <= 1, |error| <= 2e-8 rad: Abramowitz & Stegun 4.4.46, highest power
-/// first. Not the C library's acos, whose last bit depends on the CPU it runs on. Every target evaluates it
-/// by the same multiplications and additions, none of them fused.
-inline constexpr std::array<float, 8> arc_cosine_polynomial{-0.0012624911F, 0.0066700901F,  -0.0170881256F,
-                                                            0.0308918810F,  -0.0501743046F, 0.0889789874F,
-                                                            -0.2145988016F, 1.5707963050F};
-inline constexpr float angle_units_per_radian = 41711.327F;  // 65520 / (pi / 2)
+/// The arc cosine of 0 <= c <= 1 is sqrt(1 - c) P(c), in units, highest power first: the form of Abramowitz &
+/// Stegun 4.4.46 with as many terms as units ask for. |error| <= 0.005 units, and exact at 0. Not the C
+/// library's acos, whose last bit depends on the CPU it runs on. Every target evaluates it by the same
+/// multiplications and additions, none of them fused.
+inline constexpr std::array<float, 7> arc_cosine_polynomial{111.76205F, -509.00394F, 1167.3652F, -2057.043F,
+                                                            3706.7136F, -8951.011F,  65520.0F};
 
 /// Unit vectors, one array per coordinate. A line and its reverse are the same.
 struct Lines {

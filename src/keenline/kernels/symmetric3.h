@@ -9,6 +9,10 @@ struct Symmetric3 {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 };
 
+[[nodiscard]] inline Symmetric3 sum(const Symmetric3& a, const Symmetric3& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+
 /// matrix += weight v vᵀ
 inline void add_square(Symmetric3& matrix, const std::array<double, 3>& v, double weight) {
   const std::array<double, 3> w{weight * v[0], weight * v[1], weight * v[2]};
