@@ -24,6 +24,7 @@
 #include "keenline/lines/sides.h"
 #include "keenline/lines/smooth.h"
 #include "keenline/lines/snap.h"
+#include "keenline/lines/straighten.h"
 #include "keenline/lines/tracers.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/smooth.h"
@@ -253,8 +254,11 @@ FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, con
                       double spacing, const LinesJob& job, Progress& progress) {
   if (!(spacing > 0)) return {};  // no surface, no lines
   FeatureGraph graph = find_tracer(job.trace).trace(cloud, search, labels, spacing, progress);
-  if (job.snap) graph = join_lines(snap_lines(graph, cloud, search, spacing, {}, progress), spacing);
-  else if (job.smooth_lines) graph = smooth_lines(graph);
+  if (job.snap) {
+    graph = straighten_lines(snap_lines(graph, cloud, search, spacing, {}, progress), spacing);
+    graph = straighten_lines(join_lines(graph, spacing), spacing);  // halves agree when both are straight
+  }
+  if (!job.snap && job.smooth_lines) graph = smooth_lines(graph);
   if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing, progress);
   if (job.fit_spacings > 0) graph = fit_lines(graph, job.fit_spacings * spacing, progress);
   // Snapping has looked at the sides already.
