@@ -68,12 +68,13 @@ std::vector<Nodes> by_the_book(std::size_t nodes, std::vector<WeightedEdge> edge
     std::vector<std::size_t> distance(nodes, nodes);
     std::queue<std::uint32_t> front({edge.a});
     distance[edge.a] = 0;
-    for (; !front.empty(); front.pop())
-      for (const std::uint32_t next : graph[front.front()])
-        if (distance[next] == nodes) {
-          distance[next] = distance[front.front()] + 1;
-          front.push(next);
-        }
+    for (; !front.empty(); front.pop()) {
+      for (const std::uint32_t next : graph[front.front()]) {
+        if (distance[next] < nodes) continue;
+        distance[next] = distance[front.front()] + 1;
+        front.push(next);
+      }
+    }
     if (distance[edge.b] < nodes && distance[edge.b] <= longest) continue;
     graph[edge.a].push_back(edge.b);
     graph[edge.b].push_back(edge.a);
