@@ -436,11 +436,11 @@ TEST(Gauss, RefusesOptionsOutOfRange) {
   refuses([](GaussOptions& o) { o = at_sigma(90.1); }, "sigma");
   refuses([](GaussOptions& o) { o = at_sigma(std::nan("")); }, "sigma");
   refuses([](GaussOptions& o) { o.neighbors = 2; }, "neighbors");
-  refuses([](GaussOptions& o) { o.min_cluster = 0; }, "min-cluster");
-  refuses([](GaussOptions& o) { o.max_clusters = 1; }, "max-clusters");
-  refuses([](GaussOptions& o) { o.min_sine = -0.1; }, "min-sine");
+  refuses([](GaussOptions& o) { o.min_cluster = 0; }, "min_cluster");
+  refuses([](GaussOptions& o) { o.max_clusters = 1; }, "max_clusters");
+  refuses([](GaussOptions& o) { o.min_sine = -0.1; }, "min_sine");
   refuses([](GaussOptions& o) { o.persistence = 0.9; }, "persistence");
-  refuses([](GaussOptions& o) { o.min_support = 17; }, "min-support");
+  refuses([](GaussOptions& o) { o.min_support = 17; }, "min_support");
   EXPECT_THROW((void)detect_gauss(PointCloud{}, neighborhoods), InvalidArgument);
 }
 

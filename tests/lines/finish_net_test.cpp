@@ -30,7 +30,7 @@ TEST(FinishNet, ClosesALoopButNotAShortChain) {
   close_ends(loop, 8, 3, no_progress());
   EXPECT_TRUE(loop.ends().empty());
   ASSERT_EQ(loop.chains().size(), 1U);
-  EXPECT_TRUE(loop.chains()[0].is_closed);
+  EXPECT_TRUE(loop.chains()[0].is_loop);
 
   LineNet chain({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
   chain.connect(0, 1);
@@ -106,6 +106,9 @@ TEST(FinishNet, TheGraphHasCornersWhereThreeLinesMeet) {
   for (const Polyline& line : graph.polylines) {
     if (line.start_corner) {
       EXPECT_EQ(line.vertices.front(), graph.corners[0].position);
+    }
+    if (line.start_corner && line.closed) {
+      EXPECT_EQ(line.support, 1U + 5U + 4U + 6U) << "of every node once";
     }
     if (line.end_corner && !line.closed) {
       EXPECT_EQ(line.vertices.back(), graph.corners[0].position);

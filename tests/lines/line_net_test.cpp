@@ -37,32 +37,6 @@ std::size_t pieces(const LineNet& net) {
   return count / 2;
 }
 
-TEST(LineNet, ConnectsOnceAndNeverToItself) {
-  LineNet net({{0, 0, 0}, {1, 0, 0}});
-  net.connect(0, 1);
-  net.connect(1, 0);
-  net.connect(0, 0);
-  EXPECT_EQ(pieces(net), 1U);
-  EXPECT_EQ(net.ends(), (std::vector<std::uint32_t>{0, 1}));
-  net.disconnect(0, 1);
-  EXPECT_EQ(pieces(net), 0U);
-}
-
-TEST(LineNet, ChainsAreEveryPieceOnce) {
-  LineNet net = tee();
-  const std::vector<NetChain> chains = net.chains();
-  ASSERT_EQ(chains.size(), 3U);
-  EXPECT_EQ(chains[0].nodes, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
-  EXPECT_EQ(chains[1].nodes.back(), 10U);
-  EXPECT_EQ(chains[2].nodes.back(), 13U);
-  net = row(6);
-  net.connect(5, 0);
-  ASSERT_EQ(net.chains().size(), 1U);
-  EXPECT_TRUE(net.chains()[0].is_closed);
-  EXPECT_EQ(net.chains()[0].nodes.size(), 6U);
-  EXPECT_TRUE(LineNet({}).chains().empty());
-}
-
 TEST(LineNet, PrunesShortBranchesTheShortestFirst) {
   LineNet net = tee();
   net.prune_branches_below(3);

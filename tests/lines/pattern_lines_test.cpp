@@ -21,10 +21,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Nodes at these places, joined by these edges.
 struct Drawing {
   LinePoints points;
-  SpanningPattern pattern;
+  NodeGraph pattern;
 
   Drawing(const std::vector<Point>& positions, const std::vector<std::pair<int, int>>& edges)
-      : points(points_at(positions, edges)), pattern(positions.size(), points.edges, 0) {}
+      : points(points_at(positions, edges)), pattern(spanning_pattern(positions.size(), points.edges, 0)) {}
 
   static LinePoints points_at(const std::vector<Point>& positions,
                               const std::vector<std::pair<int, int>>& edges) {
@@ -159,7 +159,7 @@ TEST(PatternLines, PointsThatCoincideAreOneNode) {
   const LinePoints points = line_points(cloud, among_copies, labels, 1, LineKind::Crease, no_progress());
   EXPECT_EQ(points.points, alone.points);
   EXPECT_EQ(points.edges.size(), alone.edges.size());
-  const SpanningPattern pattern = clean_pattern(points, points.edges, 5, no_progress());
+  const NodeGraph pattern = clean_pattern(points, points.edges, 5, no_progress());
   const PatternLines lines = lines_of(pattern, points);
   ASSERT_EQ(lines.lines.size(), 1U);
   EXPECT_EQ(lines.lines[0].vertices.size(), 100U);

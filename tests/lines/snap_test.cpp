@@ -144,9 +144,7 @@ TEST(Snap, ACornerOfTwoSurfacesMovesAcrossThemOnly) {
 
 TEST(Snap, BordersComeNearTheRim) {
   const LineScene scene(shape_options("plane", 6000));
-  FeatureGraph inside = scene.truth;
-  for (Polyline& line : inside.polylines) line.closed = true;
-  const FeatureGraph rough = roughened(inside, scene.spacing);
+  const FeatureGraph rough = roughened(scene.truth, scene.spacing);
   const GraphComparison comparison = compared(scene, snapped(scene, rough));
   EXPECT_LT(comparison.chamfer(), 0.4 * scene.spacing);
 }

@@ -264,14 +264,17 @@ TEST(Synth, truth_curves_run_from_corner_to_corner) {
   EXPECT_EQ(fandisk.curves.size(), 3U * 3 + 2 * 3 + 2);
 }
 
-TEST(Synth, an_open_surface_has_one_closed_border) {
+TEST(Synth, borders_run_from_bend_to_bend) {
   const SynthCloud crease = synthesize(options_for("crease", 100));
-  ASSERT_EQ(crease.curves.size(), 2U);
+  ASSERT_EQ(crease.curves.size(), 7U);
+  EXPECT_TRUE(crease.corners.empty());
+  EXPECT_EQ(crease.border_corners.size(), 6U);
   EXPECT_FALSE(crease.curves[0].border);
-  EXPECT_EQ(crease.curves[0].vertices.size(), 2U);
-  EXPECT_TRUE(crease.curves[1].border);
-  EXPECT_TRUE(crease.curves[1].closed);
-  EXPECT_EQ(crease.curves[1].vertices.size(), 6U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(crease.curves[i].border, i > 0);
+    EXPECT_FALSE(crease.curves[i].closed);
+    EXPECT_EQ(crease.curves[i].vertices.size(), 2U);
+  }
 }
 
 TEST(Synth, spacing_and_columns_are_as_documented) {

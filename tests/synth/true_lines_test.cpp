@@ -68,12 +68,24 @@ TEST(TrueLines, ACylinderHasTwoLoopsThatMissTheCirclesByAThousandthAtMost) {
   }
 }
 
-TEST(TrueLines, BordersAreLinesOfTheirOwnKind) {
+TEST(TrueLines, BordersAreLinesOfTheirOwnKindBetweenTheirOwnCorners) {
   const FeatureGraph plane = lines_of("plane");
-  ASSERT_EQ(plane.polylines.size(), 1U);
-  EXPECT_TRUE(plane.polylines[0].closed);
-  EXPECT_EQ(plane.polylines[0].kind, LineKind::Border);
+  EXPECT_EQ(plane.corners.size(), 4U);
+  ASSERT_EQ(plane.polylines.size(), 4U);
+  for (const Polyline& line : plane.polylines) {
+    EXPECT_TRUE(line.start_corner && line.end_corner && line.start_corner != line.end_corner);
+    EXPECT_EQ(line.kind, LineKind::Border);
+  }
   EXPECT_EQ(total_length(plane), 4);
+
+  const FeatureGraph crease = lines_of("crease");
+  EXPECT_EQ(crease.corners.size(), 6U) << "those of two squares; at two of them the crease ends";
+  EXPECT_EQ(crease.polylines.size(), 7U);
+  EXPECT_EQ(counts_of(crease).loose_ends, 0U);
+
+  const FeatureGraph vase = lines_of("vase");
+  EXPECT_TRUE(vase.corners.empty());
+  EXPECT_EQ(counts_of(vase).loops, 2U);
 }
 
 TEST(TrueLines, APeakIsACornerWithoutLines) {

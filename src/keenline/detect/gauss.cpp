@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "keenline/memory.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/require.h"
 
 namespace keenline {
 namespace {
@@ -31,24 +33,15 @@ namespace {
 using kernels::angle_units_per_degree;
 
 void require_usable(const GaussOptions& options) {
-  const auto require = [](bool ok, std::string_view name, const auto& found, std::string_view expected) {
-    if (!ok) throw InvalidArgument(fmt::format("--{}: found {}, expected {}", name, found, expected));
-  };
-  require(options.neighbors >= min_neighbors && options.neighbors <= max_neighbors, "neighbors",
-          options.neighbors, "3 to 255");
-  require(options.scales >= 1 && options.scales <= 5, "scales", options.scales, "1 to 5");
+  require_in_range("neighbors", options.neighbors, min_neighbors, max_neighbors);
+  require_in_range("scales", options.scales, 1, 5);
   if (options.sigma_rule == SigmaRule::Given) (void)sensitivity_of(options.sigma_deg);
   if (options.min_cluster)
-    require(*options.min_cluster >= 1, "min-cluster", *options.min_cluster, "1 or more");
-  if (options.max_clusters)
-    require(*options.max_clusters >= 2 && *options.max_clusters <= 255, "max-clusters", *options.max_clusters,
-            "2 to 255");
-  require(options.min_support >= 0 && options.min_support <= 16, "min-support", options.min_support,
-          "0 to 16");
-  if (options.persistence)
-    require(*options.persistence >= 1 && *options.persistence <= 90, "persistence", *options.persistence,
-            "1 to 90");
-  require(options.min_sine >= 0 && options.min_sine <= 1, "min-sine", options.min_sine, "0 to 1");
+    require_in_range("min_cluster", *options.min_cluster, 1, std::numeric_limits<double>::infinity());
+  if (options.max_clusters) require_in_range("max_clusters", *options.max_clusters, 2, 255);
+  require_in_range("min_support", options.min_support, 0, static_cast<double>(neighbors_that_support));
+  if (options.persistence) require_in_range("persistence", *options.persistence, 1, 90);
+  require_in_range("min_sine", options.min_sine, 0, 1);
 }
 
 void require_match(const PointCloud& cloud, const Neighborhoods& neighborhoods) {

@@ -51,19 +51,19 @@ class Detector {
         },
         progress_);
     choose_rule();
-    const SpanningPattern creases =
+    const NodeGraph creases =
         pattern_of([&](std::uint32_t a, std::uint32_t b) { return is_decided(a) && is_decided(b); },
                    [&](std::uint32_t a, std::uint32_t b, const Way& way) {
                      return edge_crease_penalty(penalties_[a], penalties_[b], way.direction, rule_);
                    },
                    options_.crease_limit);
-    SpanningPattern borders =
+    NodeGraph borders =
         pattern_of([&](std::uint32_t a, std::uint32_t b) { return may_be_border(a) && may_be_border(b); },
                    [&](std::uint32_t a, std::uint32_t b, const Way& way) {
                      return edge_border_penalty(penalties_[a], penalties_[b], way.direction, rule_);
                    },
                    no_limit);
-    borders.keep_loops();
+    borders.drop_branches();
     return labels_of(creases, borders);
   }
 
@@ -104,7 +104,7 @@ class Detector {
   /// Of the edges that `may` allows and whose penalty is below the limit; their weight is the penalty and the
   /// length.
   template <typename May, typename Penalty>
-  [[nodiscard]] SpanningPattern pattern_of(const May& may, const Penalty& penalty, double limit) {
+  [[nodiscard]] NodeGraph pattern_of(const May& may, const Penalty& penalty, double limit) {
     std::vector<WeightedEdge> edges;
     std::mutex mutex;
     search_.for_each_block(
@@ -128,9 +128,9 @@ class Detector {
         },
         progress_);
     const std::size_t cycle = shortest_cycle();
-    SpanningPattern pattern(size(), std::move(edges), cycle, progress_);
-    pattern.drop_components_below(cycle);
-    pattern.prune_chains_below((cycle + 1) / 2);
+    NodeGraph pattern = spanning_pattern(size(), std::move(edges), cycle, progress_);
+    pattern.drop_small_parts(cycle);
+    pattern.prune_short_branches((cycle + 1) / 2);
     return pattern;
   }
 
@@ -141,8 +141,7 @@ class Detector {
     return shortest_cycle_for(static_cast<std::size_t>(points), 3);
   }
 
-  [[nodiscard]] FeatureLabels labels_of(const SpanningPattern& creases,
-                                        const SpanningPattern& borders) const {
+  [[nodiscard]] FeatureLabels labels_of(const NodeGraph& creases, const NodeGraph& borders) const {
     FeatureLabels labels;
     for (std::uint32_t i = 0; i < size(); ++i) {
       labels.kind.push_back(kind_of(i, creases.degree_of(first_[i]), borders.degree_of(first_[i])));

@@ -112,21 +112,15 @@ FeatureGraph graph_of(const LineNet& net, const Candidates& candidates,
     if (is_new) graph.corners.push_back({candidates.in_cloud(net.position_of(node)), {}});
     return corner->second;
   };
-  for (const NetChain& chain : net.chains()) {
+  for (const NodeChain& chain : net.chains()) {
     Polyline line;
     for (const std::uint32_t node : chain.nodes) {
       line.vertices.push_back(candidates.in_cloud(net.position_of(node)));
       line.support += support[node];
     }
-    line.closed = chain.is_closed;
-    if (!chain.is_closed) {
-      line.start_corner = corner_at(chain.nodes.front());
-      line.end_corner = corner_at(chain.nodes.back());
-    }
-    if (!chain.is_closed && chain.nodes.front() == chain.nodes.back()) {
-      line.vertices.pop_back();
-      line.closed = true;
-    }
+    line.closed = chain.is_loop;
+    line.start_corner = corner_at(chain.nodes.front());
+    line.end_corner = chain.is_loop ? line.start_corner : corner_at(chain.nodes.back());
     if (line.vertices.size() > (line.closed ? 2U : 1U)) graph.polylines.push_back(std::move(line));
   }
   return graph;

@@ -1,10 +1,12 @@
 #include "keenline/lines/line_net.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <map>
 #include <queue>
+#include <span>
 
 #include "keenline/neighborhood/disjoint_sets.h"
 #include "keenline/vectors.h"
@@ -43,102 +45,26 @@ std::map<std::uint32_t, Reached> reachable(const LineNet& net, std::uint32_t sta
 
 }  // namespace
 
-std::vector<std::uint32_t> LineNet::ends() const {
-  std::vector<std::uint32_t> ends;
-  for (std::uint32_t node = 0; node < size(); ++node)
-    if (degree_of(node) == 1) ends.push_back(node);
-  return ends;
-}
-
-void LineNet::connect(std::uint32_t a, std::uint32_t b) {
-  if (a == b) return;
-  const auto insert = [&](std::uint32_t node, std::uint32_t neighbor) {
-    auto& list = neighbors_[node];
-    const auto place = std::lower_bound(list.begin(), list.end(), neighbor);
-    if (place == list.end() || *place != neighbor) list.insert(place, neighbor);
-  };
-  insert(a, b);
-  insert(b, a);
-}
-
-void LineNet::disconnect(std::uint32_t a, std::uint32_t b) {
-  std::erase(neighbors_[a], b);
-  std::erase(neighbors_[b], a);
-}
-
-void LineNet::isolate(std::uint32_t node) {
-  for (const std::uint32_t neighbor : neighbors_[node]) std::erase(neighbors_[neighbor], node);
-  neighbors_[node].clear();
-}
-
-double LineNet::length_of(const NetChain& chain) const {
+double LineNet::length_of(const NodeChain& chain) const {
   double length = 0;
   for (std::size_t i = 0; i + 1 < chain.nodes.size(); ++i)
     length += distance(position_of(chain.nodes[i]), position_of(chain.nodes[i + 1]));
+  if (chain.is_loop) length += distance(position_of(chain.nodes.back()), position_of(chain.nodes.front()));
   return length;
 }
 
-void LineNet::take_out(const NetChain& chain) {
-  for (std::size_t i = 0; i + 1 < chain.nodes.size(); ++i) disconnect(chain.nodes[i], chain.nodes[i + 1]);
-}
-
 void LineNet::drop_parts_below(double min_length) {
-  std::vector<bool> seen(size());
-  std::vector<std::uint32_t> part;
-  for (std::uint32_t start = 0; start < size(); ++start) {
-    if (seen[start]) continue;
-    seen[start] = true;
-    part.assign(1, start);
+  drop_parts(min_length, [&](std::span<const std::uint32_t> part) {
     double twice_the_length = 0;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      for (const std::uint32_t neighbor : neighbors_[part[i]]) {
-        twice_the_length += distance(position_of(part[i]), position_of(neighbor));
-        if (seen[neighbor]) continue;
-        seen[neighbor] = true;
-        part.push_back(neighbor);
-      }
-    }
-    if (twice_the_length < 2 * min_length)
-      for (const std::uint32_t node : part) neighbors_[node].clear();
-  }
-}
-
-NetChain LineNet::chain_from(std::uint32_t start, std::uint32_t next) const {
-  NetChain chain{.nodes = {start, next}};
-  while (degree_of(chain.nodes.back()) == 2 && chain.nodes.back() != start) {
-    const std::uint32_t here = chain.nodes.back();
-    const std::uint32_t before = chain.nodes[chain.nodes.size() - 2];
-    chain.nodes.push_back(neighbors_[here][0] == before ? neighbors_[here][1] : neighbors_[here][0]);
-  }
-  return chain;
+    for (const std::uint32_t node : part)
+      for (const std::uint32_t neighbor : neighbors_of(node))
+        twice_the_length += distance(position_of(node), position_of(neighbor));
+    return twice_the_length / 2;
+  });
 }
 
 void LineNet::prune_branches_below(double min_length) {
-  // By length, then by the end. A branch can only grow while it waits: when its junction becomes a middle.
-  using Entry = std::pair<double, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> branches;
-  const auto length_from = [&](std::uint32_t end) {
-    if (degree_of(end) != 1) return infinity;
-    const NetChain chain = chain_from(end, neighbors_[end][0]);
-    return degree_of(chain.nodes.back()) > 2 ? length_of(chain) : infinity;
-  };
-  for (const std::uint32_t end : ends()) branches.emplace(length_from(end), end);
-  while (!branches.empty() && branches.top().first < min_length) {
-    const auto [length, end] = branches.top();
-    branches.pop();
-    if (const double now = length_from(end); now != length) branches.emplace(now, end);
-    else take_out(chain_from(end, neighbors_[end][0]));
-  }
-}
-
-void LineNet::drop_branches() {
-  for (std::uint32_t end : ends()) {
-    while (degree_of(end) == 1) {
-      const std::uint32_t next = neighbors_[end][0];
-      disconnect(end, next);
-      end = next;
-    }
-  }
+  prune_branches(min_length, [&](const NodeChain& chain) { return length_of(chain); });
 }
 
 void LineNet::merge_junctions(double distance) {
@@ -169,7 +95,7 @@ void LineNet::merge_junctions(double distance) {
         sum_of_junctions = sum(sum_of_junctions, position_of(node));
         ++count;
       }
-      for (const std::uint32_t neighbor : neighbors_[node])
+      for (const std::uint32_t neighbor : neighbors_of(node))
         if (sets.find(neighbor) != first) outside.push_back(neighbor);
     }
     for (const std::uint32_t node : others) isolate(node);
@@ -179,40 +105,17 @@ void LineNet::merge_junctions(double distance) {
 }
 
 void LineNet::drop_eyelets_below(double min_length) {
-  for (const NetChain& chain : chains())
-    if (!chain.is_closed && chain.nodes.front() == chain.nodes.back() && length_of(chain) < min_length)
-      take_out(chain);
+  std::vector<NodeChain> eyelets = chains();
+  std::erase_if(eyelets, [&](const NodeChain& chain) {
+    return !chain.is_loop || degree_of(chain.nodes.front()) == 2 || length_of(chain) >= min_length;
+  });
+  for (const NodeChain& eyelet : eyelets) take_out(eyelet);
 }
 
 double LineNet::way_between(std::uint32_t a, std::uint32_t b, double limit) const {
   const auto reached = reachable(*this, a, limit);
   const auto found = reached.find(b);
   return found == reached.end() ? infinity : found->second.way;
-}
-
-std::vector<NetChain> LineNet::chains() const {
-  std::vector<NetChain> chains;
-  std::vector<bool> seen(size());  // inside a chain
-  const auto add = [&](NetChain chain) {
-    for (const std::uint32_t node : chain.nodes) seen[node] = true;
-    chains.push_back(std::move(chain));
-  };
-  for (std::uint32_t start = 0; start < size(); ++start) {
-    if (degree_of(start) == 0 || degree_of(start) == 2) continue;
-    for (const std::uint32_t next : neighbors_[start]) {
-      if (degree_of(next) == 2 && seen[next]) continue;
-      if (degree_of(next) != 2 && next < start) continue;
-      add(chain_from(start, next));
-    }
-  }
-  for (std::uint32_t start = 0; start < size(); ++start) {
-    if (degree_of(start) != 2 || seen[start]) continue;
-    NetChain loop = chain_from(start, neighbors_[start][0]);
-    loop.nodes.pop_back();
-    loop.is_closed = true;
-    add(std::move(loop));
-  }
-  return chains;
 }
 
 }  // namespace keenline

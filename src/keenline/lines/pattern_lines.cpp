@@ -67,10 +67,9 @@ std::vector<WeightedEdge> edges_between(const std::vector<Point>& positions, con
 /// Which junctions are one corner.
 class Corners {
  public:
-  Corners(const SpanningPattern& pattern, const std::vector<PatternChain>& chains,
-          const std::vector<Point>& positions)
+  Corners(const NodeGraph& pattern, const std::vector<NodeChain>& chains, const std::vector<Point>& positions)
       : same_(pattern.size()), number_(pattern.size(), none) {
-    for (const PatternChain& chain : chains) {
+    for (const NodeChain& chain : chains) {
       const std::uint32_t a = chain.nodes.front();
       const std::uint32_t b = chain.nodes.back();
       if (chain.is_loop || pattern.degree_of(a) < 3 || pattern.degree_of(b) < 3) continue;
@@ -107,7 +106,7 @@ class Corners {
 };
 
 /// Nothing is left of a chain inside a corner.
-std::optional<PatternLine> line_of(const PatternChain& chain, const Corners& corners,
+std::optional<PatternLine> line_of(const NodeChain& chain, const Corners& corners,
                                    const std::vector<Point>& positions) {
   PatternLine line;
   line.start_corner = corners.at(chain.nodes.front());
@@ -156,22 +155,22 @@ std::size_t cycle_of(std::optional<int> given, const PointCloud& cloud) {
   return static_cast<std::size_t>(*given);
 }
 
-SpanningPattern clean_pattern(const LinePoints& points, std::vector<WeightedEdge> edges, std::size_t cycle,
-                              const Progress& progress) {
-  SpanningPattern pattern(points.points.size(), std::move(edges), cycle, progress);
-  pattern.drop_components_below(cycle);
+NodeGraph clean_pattern(const LinePoints& points, std::vector<WeightedEdge> edges, std::size_t cycle,
+                        const Progress& progress) {
+  NodeGraph pattern = spanning_pattern(points.points.size(), std::move(edges), cycle, progress);
+  pattern.drop_small_parts(cycle);
   const std::size_t branch = (cycle + 1) / 2;
-  pattern.prune_chains_below(branch);
-  pattern.drop_components_below(branch + 1);  // a blob of points has been but branches
+  pattern.prune_short_branches(branch);
+  pattern.drop_small_parts(branch + 1);  // a blob of points has been but branches
   return pattern;
 }
 
-PatternLines lines_of(const SpanningPattern& pattern, const LinePoints& points) {
-  const std::vector<PatternChain> chains = pattern.chains();
+PatternLines lines_of(const NodeGraph& pattern, const LinePoints& points) {
+  const std::vector<NodeChain> chains = pattern.chains();
   const Corners corners(pattern, chains, points.positions);
   PatternLines result{corners.middles(), {}};
   std::vector<std::uint32_t> line_at(points.points.size(), none);
-  for (const PatternChain& chain : chains) {
+  for (const NodeChain& chain : chains) {
     const auto line = line_of(chain, corners, points.positions);
     if (!line) continue;
     for (const std::uint32_t node : chain.nodes)

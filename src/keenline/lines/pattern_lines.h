@@ -35,8 +35,8 @@ struct LinePoints : PlacedPoints {
 
 /// The pattern of the points by these weights, one for every edge, cleaned as the papers have it: components
 /// with fewer nodes than `cycle` edges dropped, branches with less than half as many edges cut.
-[[nodiscard]] SpanningPattern clean_pattern(const LinePoints& points, std::vector<WeightedEdge> edges,
-                                            std::size_t cycle, const Progress& progress);
+[[nodiscard]] NodeGraph clean_pattern(const LinePoints& points, std::vector<WeightedEdge> edges,
+                                      std::size_t cycle, const Progress& progress);
 
 /// A line of a pattern, in the frame of its points; the members are those of Polyline.
 struct PatternLine {
@@ -54,7 +54,7 @@ struct PatternLines {
 
 /// The pattern cut at its junctions. Junctions that a chain of less than 3 spacings connects are one corner,
 /// in their middle. A line is supported by the points on it and by those that have their nearest node on it.
-[[nodiscard]] PatternLines lines_of(const SpanningPattern& pattern, const LinePoints& points);
+[[nodiscard]] PatternLines lines_of(const NodeGraph& pattern, const LinePoints& points);
 
 /// Adds them to a graph, in the cloud's own coordinates.
 void add_lines(FeatureGraph& graph, const PatternLines& lines, const TraceFrame& frame, LineKind kind);

@@ -16,9 +16,13 @@ constexpr int window_size = 12;  // a border point every spacing: six to each si
 constexpr int surface_neighbors = 24;
 constexpr double reach = 5;  // of what counts
 constexpr int least_points = 4;
-constexpr double largest_shift = 1;  // from where the rim was expected
-constexpr double largest_gap = 2.5;  // from a place on the rim to a border point
-constexpr double roundest = 0.2;     // squared width per squared length of what is still a line
+constexpr double largest_shift = 1;    // from where the rim was expected
+constexpr double largest_gap = 2.5;    // from a place on the rim to a border point
+constexpr int points_beside_rim = 41;  // half of a disc of radius 5
+constexpr double open_reach = 3.5;     // so far all that lies further out is among them
+/// Squared width per squared length of what is still a line: the two sides of a right angle have 0.25 seen
+/// from the middle, less from aside, an arc 0.07 where it turns by two radians.
+constexpr double roundest = 0.1;
 
 std::vector<std::uint32_t> border_points(const PointCloud& cloud, const FeatureLabels& labels) {
   std::vector<std::uint32_t> points;
@@ -55,20 +59,38 @@ std::optional<Surface> surface_at(std::uint32_t point, const PointCloud& cloud,
   return surface;
 }
 
-/// Does the surface end at the line through `foot`, given relative to its middle? What lies past it, and
-/// what on a line of points, is not its rim.
-bool ends_at(const Surface& surface, const Point& foot, const Point& outward) {
+/// Within 60 degrees of a direction or its opposite?
+bool is_along(const Point& direction, const Point& way) {
+  constexpr double squared_cosine = 0.25;
+  const double along = dot(direction, way);
+  return along * along > squared_cosine * dot(way, way);
+}
+
+/// Does the surface end at the line through `foot`, given relative to its middle? 1 if it lies behind it,
+/// seen along `across`, -1 if ahead, and 0 where it goes on or is but a line of points.
+int end_at(const Surface& surface, const Point& foot, const Point& across) {
   constexpr double clear = 0.75;  // from the rim; noise and bends carry points past it
   constexpr int most_past = 1;
   constexpr int fewest_inside = 6;
   int positive = 0;
   int negative = 0;
   for (const Point& offset : surface.offsets) {
-    const double v = dot(outward, difference(offset, foot));
-    positive += v > clear ? 1 : 0;
-    negative += v < -clear ? 1 : 0;
+    const Point way = difference(offset, foot);
+    const double v = dot(across, way);
+    // Beside the way out the rim of a hole comes back.
+    if (std::abs(v) < clear || !is_along(across, way)) continue;
+    ++(v > 0 ? positive : negative);
   }
-  return std::min(positive, negative) <= most_past && std::max(positive, negative) >= fewest_inside;
+  if (std::min(positive, negative) > most_past || std::max(positive, negative) < fewest_inside) return 0;
+  return positive < negative ? 1 : -1;
+}
+
+/// Is there no place farther out, within 60 degrees of the way out at a foot?
+bool is_open(const Point& place, const std::vector<Point>& places, const Foot& from) {
+  return std::none_of(places.begin(), places.end(), [&](const Point& other) {
+    const Point way = difference(other, place);
+    return dot(from.normals[1], way) > 0 && is_along(from.normals[1], way);
+  });
 }
 
 }  // namespace
@@ -82,20 +104,49 @@ RimTracker::RimTracker(const PointCloud& cloud, const NeighborSearch& search, co
       positions_(positions_of(points_, cloud)),
       rim_search_(positions_, progress) {}
 
+std::vector<Point> RimTracker::labelled_around(const Point& expected) const {
+  std::vector<Point> rim;
+  rim.reserve(window_size);
+  for (const std::uint32_t q : rim_search_.nearest_to(frame_.global(expected), window_size))
+    rim.push_back(frame_.local(positions_[q]));
+  return rim;
+}
+
 std::optional<Foot> RimTracker::find(std::uint32_t border_point) const {
-  return fit(border_point, frame_.local(positions_[border_point]));
+  const Point expected = frame_.local(positions_[border_point]);
+  return fit(points_[border_point], expected, labelled_around(expected));
 }
 
 std::optional<Foot> RimTracker::follow(const Foot& from, const Point& expected) const {
   const auto nearest = rim_search_.nearest_to(frame_.global(expected), 1);
   if (nearest.empty()) return std::nullopt;
-  std::optional<Foot> foot = fit(nearest[0], expected);
+  std::optional<Foot> foot = fit(points_[nearest[0]], expected, labelled_around(expected));
+  if (!foot) foot = follow_unlabelled(from, expected);
   if (foot && dot(foot->tangent, from.tangent) < 0) foot->tangent = scaled(-1, foot->tangent);
   return foot;
 }
 
-std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& expected) const {
-  const auto surface = surface_at(points_[border_point], cloud_, search_);
+std::optional<Foot> RimTracker::follow_unlabelled(const Foot& from, const Point& expected) const {
+  const auto around = search_.nearest_to(frame_.global(expected), points_beside_rim);
+  if (around.empty()) return std::nullopt;
+  std::vector<Point> places;
+  places.reserve(around.size());
+  for (const std::uint32_t q : around) places.push_back(frame_.local(cloud_.positions[q]));
+  std::vector<Point> rim;
+  bool goes_on = false;
+  for (const Point& place : places) {
+    const Point way = difference(place, expected);
+    if (length(way) > open_reach * from.scale || !is_open(place, places, from)) continue;
+    rim.push_back(place);
+    goes_on = goes_on || dot(way, from.tangent) > 0;
+  }
+  if (!goes_on) return std::nullopt;
+  return fit(around[0], expected, rim);
+}
+
+std::optional<Foot> RimTracker::fit(std::uint32_t point, const Point& expected,
+                                    const std::vector<Point>& rim) const {
+  const auto surface = surface_at(point, cloud_, search_);
   if (!surface) return std::nullopt;
   const double scale = surface->spacing / frame_.spacing;
   double weights = 0;
@@ -103,8 +154,8 @@ std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& exp
   double gap = reach;
   Point mean{};
   kernels::Symmetric3 scatter;
-  for (const std::uint32_t q : rim_search_.nearest_to(frame_.global(expected), window_size)) {
-    const Point d = scaled(1 / scale, difference(frame_.local(positions_[q]), expected));
+  for (const Point& place : rim) {
+    const Point d = scaled(1 / scale, difference(place, expected));
     const double r = dot(d, d) / (reach * reach);
     if (r >= 1) continue;
     const double w = (1 - r) * (1 - r);
@@ -130,8 +181,10 @@ std::optional<Foot> RimTracker::fit(std::uint32_t border_point, const Point& exp
   foot.normals[0] = cross(foot.normals[1], foot.tangent);
   foot.scale = scale;
   const Point from_middle =
-      scaled(1 / scale, difference(foot.position, frame_.local(positions_[border_point])));
-  if (!ends_at(*surface, from_middle, foot.normals[1])) return std::nullopt;
+      scaled(1 / scale, difference(foot.position, frame_.local(cloud_.positions[point])));
+  const int out = end_at(*surface, from_middle, foot.normals[1]);
+  if (out == 0) return std::nullopt;
+  foot.normals[1] = scaled(out, foot.normals[1]);
   foot.quality = 1 - eigen.values[1] / eigen.values[0];
   foot.is_backed = true;
   return foot;

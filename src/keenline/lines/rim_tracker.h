@@ -13,7 +13,9 @@
 namespace keenline {
 
 /// Finds the rim of an open surface among the points that the detector took for border: a straight line
-/// fitted to the 12 of them around. Its planes are that of the surface and the one that ends it.
+/// fitted to the 12 of them around. Its planes are that of the surface and the one that ends it. Where the
+/// detector left a gap the rim goes on along points that have no other within 60 degrees of the way out, as
+/// long as there are some ahead.
 class RimTracker : public Tracker {
  public:
   /// What is given must outlive this. \throw OutOfMemory; Cancelled
@@ -29,7 +31,12 @@ class RimTracker : public Tracker {
   [[nodiscard]] std::optional<Foot> follow(const Foot& from, const Point& expected) const override;
 
  private:
-  [[nodiscard]] std::optional<Foot> fit(std::uint32_t border_point, const Point& expected) const;
+  /// The line through places on the rim, given in the frame; `point` is one of the cloud nearby.
+  [[nodiscard]] std::optional<Foot> fit(std::uint32_t point, const Point& expected,
+                                        const std::vector<Point>& rim) const;
+  /// Border points.
+  [[nodiscard]] std::vector<Point> labelled_around(const Point& expected) const;
+  [[nodiscard]] std::optional<Foot> follow_unlabelled(const Foot& from, const Point& expected) const;
 
   const PointCloud& cloud_;
   const NeighborSearch& search_;

@@ -15,6 +15,7 @@
 #include "keenline/errors.h"
 #include "keenline/lines/foot_grid.h"
 #include "keenline/lines/junctions.h"
+#include "keenline/lines/peaks.h"
 #include "keenline/lines/rim_tracker.h"
 #include "keenline/lines/walk.h"
 #include "keenline/lines/wedge.h"
@@ -174,34 +175,6 @@ void count_support(FeatureGraph& graph, const PointCloud& cloud, const std::vect
   }
 }
 
-/// Of peaks that are close to each other the sharpest, where no line is near.
-void add_peaks(FeatureGraph& graph, const PointCloud& cloud, const FeatureLabels& labels,
-               std::vector<std::uint32_t> peaks, const TraceFrame& frame) {
-  constexpr double apart = 3;
-  FootGrid taken;
-  const auto take = [&](const Point& position) {
-    Foot foot;
-    foot.position = frame.local(position);
-    taken.insert({0, 0, foot});
-  };
-  for (const Polyline& line : graph.polylines)
-    for (const Point& vertex : line.vertices) take(vertex);
-  if (labels.score.size() == labels.size()) {
-    std::stable_sort(peaks.begin(), peaks.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return labels.score[a] > labels.score[b]; });
-  }
-  for (const std::uint32_t peak : peaks) {
-    const Point position = frame.local(cloud.positions[peak]);
-    bool is_free = true;
-    taken.near(position, apart, [&](const FootGrid::Entry& entry) {
-      is_free = is_free && distance(entry.foot.position, position) > apart;
-    });
-    if (!is_free) continue;
-    graph.corners.push_back({cloud.positions[peak], std::nullopt});
-    take(cloud.positions[peak]);
-  }
-}
-
 }  // namespace
 
 FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search, const FeatureLabels& labels,
@@ -225,7 +198,7 @@ FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search, 
   FeatureGraph graph = connect_paths(std::move(paths), frame, options.min_length, progress);
   count_support(graph, cloud, creases, LineKind::Crease, frame);
   count_support(graph, cloud, borders, LineKind::Border, frame);
-  add_peaks(graph, cloud, labels, peaks, frame);
+  add_peaks(graph, cloud, search, labels, frame, progress);
   return graph;
 }
 

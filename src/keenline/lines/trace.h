@@ -17,9 +17,9 @@ struct TraceOptions {
 /// From labelled points to a drawing, whatever method labelled them: thin lines with gaps, or bands several
 /// spacings wide. Lines are walked along the surfaces that meet in them, not from candidate to candidate:
 /// candidates say where a crease may be, the points around decide (see WedgeTracker), and carry the walk over
-/// gaps. Edge and Corner points are candidates for creases, Border points for borders, and a Peak that no
-/// line comes near is a corner without lines. Corners are where lines come together, whatever was labelled
-/// Corner. Details and constants: docs/lines.md.
+/// gaps. Edge and Corner points are candidates for creases, Border points for borders, and a peak that no
+/// line comes near is a corner without lines (see add_peaks()). Corners are where lines come together,
+/// whatever was labelled Corner. Details and constants: docs/lines.md.
 ///
 /// Filled in are vertices, kind, closed, corners with their residual, and support: the candidates within 1.5
 /// spacings of the line. The graph is valid, see validate(), and empty where there is nothing to trace.

@@ -55,7 +55,7 @@ FeatureGraph trace_gumhold(const PointCloud& cloud, const NeighborSearch& search
       const auto penalty = kind == LineKind::Border ? edge_border_penalty : edge_crease_penalty;
       edge.weight = penalty(penalties[edge.a], penalties[edge.b], way.direction, rule) + way.relative_length;
     }
-    const SpanningPattern pattern = clean_pattern(points, std::move(edges), cycle, progress);
+    const NodeGraph pattern = clean_pattern(points, std::move(edges), cycle, progress);
     add_lines(graph, lines_of(pattern, points), points.frame, kind);
   }
   return graph;

@@ -129,7 +129,7 @@ std::vector<TruthCurve> truth_curves(const Shape& shape, double spacing) {
   std::vector<TruthCurve> curves = polylines_of(shape.edges, shape.corners, spacing);
   std::vector<TruthCurve> designed = polylines_of(shape.designed, corners_of(shape.designed), spacing);
   std::move(designed.begin(), designed.end(), std::back_inserter(curves));
-  std::vector<TruthCurve> borders = polylines_of(shape.borders, {}, spacing);
+  std::vector<TruthCurve> borders = polylines_of(shape.borders, corners_of(shape.borders), spacing);
   for (TruthCurve& border : borders) border.border = true;
   std::move(borders.begin(), borders.end(), std::back_inserter(curves));
   return curves;
@@ -158,6 +158,7 @@ SynthCloud synthesize(const SynthOptions& options, Progress& progress) {
   result.curves = truth_curves(shape, result.spacing);
   for (const Vec3& corner : shape.corners) result.corners.push_back(corner.point());
   for (const Vec3& corner : synth::corners_of(shape.designed)) result.corners.push_back(corner.point());
+  for (const Vec3& corner : synth::corners_of(shape.borders)) result.border_corners.push_back(corner.point());
   for (const Vec3& peak : shape.peaks) result.peaks.push_back(peak.point());
   return result;
 }

@@ -65,9 +65,10 @@ struct SynthCloud {
   PointCloud cloud;  ///< attributes truth_feature, truth_kind (uint8) and truth_distance (float64)
   std::vector<TruthCurve>
       curves;  ///< from corner to corner; arcs have vertices at most `spacing` and 5 degrees apart
-  std::vector<Point> corners;  ///< where three edges meet, or two at an angle
-  std::vector<Point> peaks;    ///< sharp points that lie on no edge: the apex of a cone
-  double spacing = 0;          ///< h = sqrt(area / points)
+  std::vector<Point> corners;         ///< where three edges meet, or two at an angle
+  std::vector<Point> border_corners;  ///< where two borders meet at an angle: not sharp
+  std::vector<Point> peaks;           ///< sharp points that lie on no edge: the apex of a cone
+  double spacing = 0;                 ///< h = sqrt(area / points)
 };
 
 [[nodiscard]] std::span<const SynthShape> synth_shapes();
