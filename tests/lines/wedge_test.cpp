@@ -123,12 +123,13 @@ TEST(Wedge, LittleNoiseChangesNothingInTheView) {
 }
 
 TEST(Wedge, MoreNoiseIsSeenFromFartherAwayUpToALimit) {
-  const WedgeView view = view_of(0.12);
-  EXPECT_EQ(view.points, 82);
-  EXPECT_EQ(view.points_of_hypothesis, 16);
-  EXPECT_NEAR(view.unit, std::sqrt(2), 1e-12);
-  EXPECT_NEAR(view.noise * view.unit, 0.12, 1e-12);
-  EXPECT_EQ(view_of(10).points, 164);
+  const WedgeView view = view_of(0.09);
+  EXPECT_EQ(view.points, 61);
+  EXPECT_EQ(view.points_of_hypothesis, 12);
+  EXPECT_NEAR(view.unit, std::sqrt(1.5), 1e-12);
+  EXPECT_NEAR(view.noise * view.unit, 0.09, 1e-12);
+  EXPECT_EQ(view_of(0.2).points, 82);
+  EXPECT_EQ(view_of(10).points, 82);
 }
 
 TEST(Wedge, FindsABluntCreaseInNoiseAndEvidenceForIt) {

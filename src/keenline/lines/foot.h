@@ -39,6 +39,7 @@ struct Path {
   std::vector<Foot> feet;
   bool closed = false;
   LineKind kind = LineKind::Crease;
+  double unit = 1;  ///< the scales of the feet are so many times the spacing of the points around
 };
 
 }  // namespace keenline

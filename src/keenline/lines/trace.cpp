@@ -114,7 +114,7 @@ std::vector<Path> trace_creases(const PointCloud& cloud, const NeighborSearch& s
   const WedgeTracker tracker(cloud, search, labels, frame, view);
   const std::vector<Foot> seeds = find_feet(tracker, candidates, progress);
   const double usual = median_quality(seeds);
-  LineWalker walker(LineKind::Crease);
+  LineWalker walker(LineKind::Crease, view.unit);
   walker.walk(tracker, better_than(0.75 * usual, seeds), progress);
   const auto beside = points_beside_bends(walker.paths(), cloud, search, frame);
   progress.begin("tracing beside bends", 2 * beside.size());

@@ -67,7 +67,7 @@ void LineWalker::walk_from(const Foot& seed) {
     behind.erase(behind.begin());
     for (Foot& foot : behind) foot.tangent = scaled(-1, foot.tangent);
   }
-  Path path{{behind.rbegin(), behind.rend()}, closed, kind_};
+  Path path{{behind.rbegin(), behind.rend()}, closed, kind_, unit_};
   path.feet.insert(path.feet.end(), ahead.begin(), ahead.end());
   double evidence = 0;
   for (const Foot& foot : path.feet) evidence += counted_evidence(foot);

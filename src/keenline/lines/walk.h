@@ -18,8 +18,8 @@ namespace keenline {
 /// end short of corners or a little past them.
 class LineWalker {
  public:
-  /// The tracker must outlive this.
-  explicit LineWalker(LineKind kind) : kind_(kind) {}
+  /// \param unit of the feet: what Path::unit is to be. The tracker must outlive this.
+  explicit LineWalker(LineKind kind, double unit = 1) : kind_(kind), unit_(unit) {}
 
   /// Advances `progress` by the seeds; the caller began the stage. Cost: O(seeds + length of the lines).
   /// \throw Cancelled
@@ -36,6 +36,7 @@ class LineWalker {
 
   const Tracker* tracker_ = nullptr;
   LineKind kind_;
+  double unit_;
   FootGrid grid_;
   FootGrid own_;  // of the path that is walked: it may yet prove none
   std::vector<Path> paths_;

@@ -288,7 +288,7 @@ std::optional<Foot> foot_of(const Wedge& wedge, const Window& window, const Feat
 
 WedgeView view_of(double noise) {
   constexpr double seen_well = 0.06;  // noise that the default view is made for
-  constexpr double most = 4;          // times the points: what is noisier is seen no farther
+  constexpr double most = 2;          // times the points: with more, small faces are lost
   constexpr double noises_within = 3.5;
   WedgeView view;
   const double more = std::clamp(noise / seen_well, 1.0, most);

@@ -22,8 +22,8 @@ struct WedgeView {
 };
 
 /// Of a noisy cloud more is seen, from farther away: above 0.06 the points of a window grow with the noise,
-/// up to four times, and a kink stands out as well as it did. \param noise standard deviation of the points
-/// about their surface, in spacings; see estimate_noise()
+/// up to twice, and a kink stands out about as well as it did.
+/// \param noise standard deviation of the points about their surface, in spacings, see estimate_noise()
 [[nodiscard]] WedgeView view_of(double noise);
 
 /// Finds creases as what they are, two surfaces that meet: two half-planes fitted to the points around.
