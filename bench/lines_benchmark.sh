@@ -11,7 +11,7 @@ row='%-18s %6s  %9s %9s %9s %7s  %8s %8s %8s %8s %8s\n'
 printf "$row" shape noise corners lines loops loose length chamfer worst corner missed
 # shape, points, and how the cloud is made where that is not by default
 while read -r shape points made; do
-  for noise in 0 0.05h 0.1h; do
+  for noise in 0 0.05h 0.1h 0.2h; do
     cloud=$folder/$shape-$noise
     # shellcheck disable=SC2086 # made is words
     spacing=$("$keenline" synth "$shape" --points "$points" --noise "$noise" $made -o "$cloud.ply" --lines "$cloud-truth.json" --json |

@@ -85,6 +85,14 @@ TEST(ConnectPaths, ALineThatRunsIntoAnotherCutsIt) {
   EXPECT_EQ(graph.polylines.size(), 3U);
 }
 
+TEST(ConnectPaths, ALineIsAsLongInItsSpacingsFromHoweverFarItWasSeen) {
+  Path path = straight_path({0, 0, 0}, {8, 0, 0}, y, z);
+  for (Foot& foot : path.feet) foot.scale = 2;
+  EXPECT_TRUE(connect_paths({path}, frame, 6).polylines.empty());
+  path.unit = 2;
+  EXPECT_EQ(connect_paths({path}, frame, 6).polylines.size(), 1U);
+}
+
 TEST(ConnectPaths, ShortLinesWithLooseEndsAreNoise) {
   EXPECT_TRUE(connect_paths({straight_path({0, 0, 0}, {5, 0, 0}, y, z)}, frame, 6).polylines.empty());
   EXPECT_EQ(connect_paths({straight_path({0, 0, 0}, {7, 0, 0}, y, z)}, frame, 6).polylines.size(), 1U);

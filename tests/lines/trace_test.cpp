@@ -56,11 +56,29 @@ TEST(TraceLines, TheRightGraphFromPerfectLabels) {
   }
 }
 
+TEST(TraceLines, TheRightGraphInNoise) {
+  struct Case {
+    const char* name;
+    double noise;
+  };
+  for (const auto& [name, noise] : {Case{"icosahedron", 0.1}, Case{"box", 0.2}, Case{"cylinder", 0.2}}) {
+    const LabelledShape shape = labelled_shape(name, 6000, noise);
+    const GraphComparison found = compare(traced(shape), shape);
+    EXPECT_EQ(found.found.corners, found.truth.corners) << name;
+    EXPECT_EQ(found.found.polylines, found.truth.polylines) << name;
+    EXPECT_EQ(found.found.loops, found.truth.loops) << name;
+    EXPECT_EQ(found.found.loose_ends, 0U) << name;
+    EXPECT_NEAR(found.length_ratio, 1, 0.03) << name;
+  }
+}
+
 TEST(TraceLines, NothingOnSmoothShapesEvenWhereTheDetectorErrs) {
-  for (const char* const name : {"sphere", "torus"}) {
-    LabelledShape shape = labelled_shape(name, 5000, 0.05);
-    for (std::size_t i = 0; i < shape.labels.size(); i += 50) shape.labels.kind[i] = Kind::Edge;
-    EXPECT_TRUE(traced(shape).polylines.empty()) << name;
+  for (const double noise : {0.05, 0.1, 0.2}) {
+    for (const char* const name : {"sphere", "torus"}) {
+      LabelledShape shape = labelled_shape(name, 5000, noise);
+      for (std::size_t i = 0; i < shape.labels.size(); i += 50) shape.labels.kind[i] = Kind::Edge;
+      EXPECT_TRUE(traced(shape).polylines.empty()) << name << noise;
+    }
   }
 }
 

@@ -1,6 +1,8 @@
 #include "keenline/lines/walk.h"
 
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +35,73 @@ class Circle : public Tracker {
   double radius_;
   double end_x_;
 };
+
+/// The x axis as far as x = 40, with evidence that depends on x.
+class Axis : public Tracker {
+ public:
+  explicit Axis(std::function<double(double)> evidence) : evidence_(std::move(evidence)) {}
+  [[nodiscard]] Foot at(double x) const {
+    Foot foot;
+    foot.position = {x, 0, 0};
+    foot.tangent = {1, 0, 0};
+    foot.normals = {Point{0, 1, 0}, Point{0, 0, 1}};
+    foot.quality = 1;
+    foot.evidence = evidence_(x);
+    return foot;
+  }
+  [[nodiscard]] std::optional<Foot> find(std::uint32_t /*point*/) const override { return at(0); }
+  [[nodiscard]] std::optional<Foot> follow(const Foot& from, const Point& expected) const override {
+    Foot foot = at(expected[0]);
+    if (std::abs(expected[0]) > 40) return std::nullopt;
+    if (from.tangent[0] < 0) foot.tangent = {-1, 0, 0};
+    return foot;
+  }
+
+ private:
+  std::function<double(double)> evidence_;
+};
+
+std::vector<Path> walked(const Axis& axis) {
+  LineWalker walker(LineKind::Crease);
+  walker.walk(axis, std::vector{axis.at(0)}, no_progress());
+  return walker.paths();
+}
+
+TEST(LineWalker, EndsWhereTheEvidenceBeginsToFall) {
+  const auto paths = walked(Axis([](double x) { return x < 20.5 ? 10 : -3; }));
+  ASSERT_EQ(paths.size(), 1U);
+  EXPECT_EQ(paths[0].feet.front().position[0], -40);
+  EXPECT_EQ(paths[0].feet.back().position[0], 20);
+}
+
+TEST(LineWalker, GoesOnWhereAFewFeetSpeakAgainstTheLine) {
+  const auto paths = walked(Axis([](double x) { return std::abs(x - 21) < 1.5 ? -3 : 10; }));
+  ASSERT_EQ(paths.size(), 1U);
+  EXPECT_EQ(paths[0].feet.size(), 81U);
+}
+
+TEST(LineWalker, StepsOverAFootThatSpeaksStronglyAgainstTheLine) {
+  const auto paths = walked(Axis([](double x) { return x == 21 ? -1000 : 10; }));
+  ASSERT_EQ(paths.size(), 1U);
+  EXPECT_EQ(paths[0].feet.size(), 80U);
+}
+
+TEST(LineWalker, TooLittleEvidenceInAllIsNoLine) {
+  EXPECT_TRUE(walked(Axis([](double) { return 0.6; })).empty());
+  EXPECT_EQ(walked(Axis([](double) { return 0.65; })).size(), 1U);
+}
+
+TEST(LineWalker, WhatProvedNoLineDoesNotStopOthers) {
+  bool is_weak = true;
+  const Axis axis([&](double) { return is_weak ? 0.1 : 10; });
+  LineWalker walker(LineKind::Crease);
+  walker.walk(axis, std::vector{axis.at(0)}, no_progress());
+  EXPECT_TRUE(walker.paths().empty());
+  is_weak = false;
+  walker.walk(axis, std::vector{axis.at(0)}, no_progress());
+  ASSERT_EQ(walker.paths().size(), 1U);
+  EXPECT_EQ(walker.paths()[0].feet.size(), 81U);
+}
 
 TEST(LineWalker, ClosesALoop) {
   const Circle circle(10);

@@ -1,5 +1,6 @@
 #include "keenline/lines/wedge.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -16,11 +17,11 @@ using test::labelled_shape;
 using test::LabelledShape;
 
 struct Tracked {
-  explicit Tracked(LabelledShape&& labelled)
+  explicit Tracked(LabelledShape&& labelled, double noise = 0)
       : shape(std::move(labelled)),
         search(shape.synth.cloud.positions),
         frame{{0, 0, 0}, shape.spacing},
-        tracker(shape.synth.cloud, search, shape.labels, frame) {}
+        tracker(shape.synth.cloud, search, shape.labels, frame, view_of(noise)) {}
 
   LabelledShape shape;
   NeighborSearch search;
@@ -34,7 +35,12 @@ Tracked crease(double angle_deg, double noise = 0) {
   options.points = 4000;
   options.angle_deg = angle_deg;
   options.noise.amount = noise;
-  return Tracked(labelled_shape(options));
+  return Tracked(labelled_shape(options), noise);
+}
+
+const TruthCurve& crease_of(const Tracked& t) {
+  const std::vector<TruthCurve>& curves = t.shape.synth.curves;
+  return *std::find_if(curves.begin(), curves.end(), [](const TruthCurve& curve) { return !curve.border; });
 }
 
 double distance_to_line(const Point& p, const TruthCurve& line) {
@@ -46,11 +52,8 @@ class WedgeAt : public testing::TestWithParam<double> {};
 
 TEST_P(WedgeAt, TheFootLiesOnTheCreaseOfTwoPlanes) {
   const Tracked t = crease(GetParam());
-  const TruthCurve* truth = nullptr;
-  for (const TruthCurve& curve : t.shape.synth.curves)
-    if (!curve.border) truth = &curve;
-  ASSERT_NE(truth, nullptr);
-  const Point along = unit(difference(truth->vertices[1], truth->vertices[0]));
+  const TruthCurve& truth = crease_of(t);
+  const Point along = unit(difference(truth.vertices[1], truth.vertices[0]));
   std::size_t found = 0;
   std::size_t candidates = 0;
   for (std::uint32_t i = 0; i < t.shape.labels.size(); ++i) {
@@ -59,7 +62,7 @@ TEST_P(WedgeAt, TheFootLiesOnTheCreaseOfTwoPlanes) {
     const auto foot = t.tracker.find(i);
     if (!foot) continue;
     ++found;
-    EXPECT_LT(distance_to_line(t.frame.global(foot->position), *truth), 1e-6 * t.shape.spacing);
+    EXPECT_LT(distance_to_line(t.frame.global(foot->position), truth), 1e-6 * t.shape.spacing);
     EXPECT_NEAR(std::abs(dot(foot->tangent, along)), 1, 1e-9);
     const double cosine = std::abs(dot(foot->normals[0], foot->normals[1]));
     EXPECT_NEAR(cosine, std::abs(kernels::sin_cos(kernels::radians(GetParam() - 90)).sin), 1e-6);
@@ -108,6 +111,68 @@ TEST(Wedge, SeesNoCreaseInSmoothSurfaces) {
     EXPECT_GT(asked, 100) << name;
     EXPECT_LT(found, 0.1 * asked) << name;
   }
+}
+
+TEST(Wedge, LittleNoiseChangesNothingInTheView) {
+  const WedgeView usual;
+  const WedgeView view = view_of(0.06);
+  EXPECT_EQ(view.points, usual.points);
+  EXPECT_EQ(view.points_of_hypothesis, usual.points_of_hypothesis);
+  EXPECT_EQ(view.unit, 1);
+  EXPECT_EQ(view.tolerance, usual.tolerance);
+}
+
+TEST(Wedge, MoreNoiseIsSeenFromFartherAwayUpToALimit) {
+  const WedgeView view = view_of(0.09);
+  EXPECT_EQ(view.points, 61);
+  EXPECT_EQ(view.points_of_hypothesis, 12);
+  EXPECT_NEAR(view.unit, std::sqrt(1.5), 1e-12);
+  EXPECT_NEAR(view.noise * view.unit, 0.09, 1e-12);
+  EXPECT_EQ(view_of(0.2).points, 82);
+  EXPECT_EQ(view_of(10).points, 82);
+}
+
+TEST(Wedge, FindsABluntCreaseInNoiseAndEvidenceForIt) {
+  for (const double noise : {0.05, 0.1, 0.2}) {
+    const Tracked t = crease(145, noise);
+    const TruthCurve& truth = crease_of(t);
+    int found = 0;
+    int asked = 0;
+    double evidence = 0;
+    for (std::uint32_t i = 0; i < t.shape.labels.size(); ++i) {
+      if (t.shape.labels.kind[i] != Kind::Edge) continue;
+      ++asked;
+      const auto foot = t.tracker.find(i);
+      if (!foot) continue;
+      ++found;
+      evidence += foot->evidence;
+      EXPECT_LT(distance_to_line(t.frame.global(foot->position), truth), 1.5 * t.shape.spacing) << noise;
+    }
+    EXPECT_GT(found, 0.9 * asked) << noise;
+    EXPECT_GT(evidence, 10 * found) << noise;
+  }
+}
+
+TEST(Wedge, EvidenceAgainstACreaseWhereANoisySurfaceBends) {
+  const Tracked t(labelled_shape("torus", 4000, 0.1), 0.1);
+  // A line along the surface with the normals that a blunt wedge might have there.
+  double evidence = 0;
+  int feet = 0;
+  for (std::uint32_t i = 0; i < t.shape.labels.size(); i += 10) {
+    const Point middle = t.frame.local(t.shape.synth.cloud.positions[i]);
+    const Point out = unit({middle[0], middle[1], 0});
+    Foot from;
+    from.position = middle;
+    from.tangent = {-out[1], out[0], 0};
+    const Point up{0, 0, 1};
+    from.normals = {unit(sum(out, scaled(0.2, up))), unit(sum(out, scaled(-0.2, up)))};
+    const auto foot = t.tracker.follow(from, middle);
+    if (!foot || foot->evidence == 25) continue;
+    ++feet;
+    evidence += foot->evidence;
+  }
+  EXPECT_GT(feet, 30);
+  EXPECT_LT(evidence, -2 * feet);
 }
 
 TEST(Wedge, TooFewPointsAreNoWindow) {

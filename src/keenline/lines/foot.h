@@ -28,8 +28,9 @@ struct Foot {
   Point position{};
   Point tangent{};                 ///< unit vector
   std::array<Point, 2> normals{};  ///< unit normals, of any sign, of two planes that meet in the line here
-  double scale = 1;                ///< spacing of the points around
+  double scale = 1;                ///< spacing of the points around; more where they are noisy
   double quality = 0;              ///< 0 to 1: how much of the neighbourhood the planes explain
+  double evidence = 50;            ///< for a line, against a smooth surface: difference of chi squared
   bool is_backed = false;          ///< the detector found a point nearby
 };
 
@@ -38,6 +39,7 @@ struct Path {
   std::vector<Foot> feet;
   bool closed = false;
   LineKind kind = LineKind::Crease;
+  double unit = 1;  ///< the scales of the feet are so many times the spacing of the points around
 };
 
 }  // namespace keenline

@@ -32,7 +32,7 @@ double length_of(const Path& path) {
 
 /// In spacings of the points around.
 double relative_length(const Path& path) {
-  return path.feet.empty() ? 0 : length_of(path) / path.feet.front().scale;
+  return path.feet.empty() ? 0 : length_of(path) * path.unit / path.feet.front().scale;
 }
 
 void remove_empty(std::vector<Path>& paths) {
@@ -311,13 +311,13 @@ void cut(Path path, Stops stops, std::vector<Piece>& pieces) {
     stops.start = stops.end = first.corner;
     path.closed = stops.between.empty();
   }
-  Piece piece{{{}, path.closed, path.kind}, stops.start, {}};
+  Piece piece{{{}, path.closed, path.kind, path.unit}, stops.start, {}};
   std::size_t next = 0;
   for (const Stops::Stop& stop : stops.between) {
     for (; next <= stop.foot; ++next) piece.path.feet.push_back(path.feet[next]);
     piece.end = stop.corner;
     pieces.push_back(piece);
-    piece = {{{}, false, path.kind}, stop.corner, {}};
+    piece = {{{}, false, path.kind, path.unit}, stop.corner, {}};
   }
   for (; next < path.feet.size(); ++next) piece.path.feet.push_back(path.feet[next]);
   piece.end = stops.end;

@@ -12,6 +12,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "keenline/detect/noise.h"
 #include "keenline/errors.h"
 #include "keenline/lines/foot_grid.h"
 #include "keenline/lines/junctions.h"
@@ -109,10 +110,12 @@ std::vector<std::uint32_t> points_of(std::initializer_list<Kind> kinds, const Po
 std::vector<Path> trace_creases(const PointCloud& cloud, const NeighborSearch& search,
                                 const FeatureLabels& labels, const std::vector<std::uint32_t>& candidates,
                                 const TraceFrame& frame, Progress& progress) {
-  const WedgeTracker tracker(cloud, search, labels, frame);
+  if (candidates.empty()) return {};
+  const WedgeView view = view_of(estimate_noise(cloud, search, progress));
+  const WedgeTracker tracker(cloud, search, labels, frame, view);
   const std::vector<Foot> seeds = find_feet(tracker, candidates, progress);
   const double usual = median_quality(seeds);
-  LineWalker walker(LineKind::Crease);
+  LineWalker walker(LineKind::Crease, view.unit);
   walker.walk(tracker, better_than(0.75 * usual, seeds), progress);
   const auto beside = points_beside_bends(walker.paths(), cloud, search, frame);
   progress.begin("tracing beside bends", 2 * beside.size());

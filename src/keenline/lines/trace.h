@@ -26,8 +26,8 @@ struct TraceOptions {
 /// \param spacing of the cloud, see estimate_spacing(); nothing is traced unless it is more than 0
 /// \pre search is in the cloud's positions; labels.size() == cloud.size()
 /// \throw InvalidArgument when an option is out of range or labels are not those of the cloud; Cancelled.
-/// Threads: any number, same bits. Cost: O(candidates + length of the lines), about 0.1 ms each. Memory: 400
-/// bytes per candidate.
+/// Threads: any number, same bits. Cost: O(candidates + length of the lines), about 0.1 ms each, and that
+/// of estimate_noise(). Memory: 400 bytes per candidate.
 [[nodiscard]] FeatureGraph trace_lines(const PointCloud& cloud, const NeighborSearch& search,
                                        const FeatureLabels& labels, double spacing,
                                        const TraceOptions& options = {}, Progress& progress = no_progress());

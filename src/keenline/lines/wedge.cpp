@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "keenline/kernels/portable_math.h"
 #include "keenline/kernels/symmetric3.h"
@@ -15,16 +16,13 @@
 namespace keenline {
 namespace {
 
-// Lengths in spacings of the points around, where nothing else is said.
-constexpr int window_size = 41;             // a radius of 3.6: some 20 points on each side
-constexpr std::size_t hypotheses = 24;      // from the points within 2.8
-constexpr std::size_t hypothesis_size = 8;  // a radius of 1.6: fits beside the crease
-constexpr double tolerance = 0.35;          // a point this far off a plane no longer belongs to it
-constexpr double smallest_sine = 0.17;      // planes within 10 degrees are one
-constexpr double near_crease = 1;           // planes of a candidate's crease pass so near to it
-constexpr double largest_shift = 1.5;       // from where a crease was expected
-constexpr double side_overlap = 0.5;        // by so much noise may carry points past the crease
-constexpr int least_points = 4;             // that fix a plane
+// Lengths in units of the view: the spacing of the points around, and more where they are noisy.
+constexpr std::size_t hypotheses = 24;  // from the points nearest to the middle
+constexpr double smallest_sine = 0.17;  // planes within 10 degrees are one
+constexpr double near_crease = 1;       // planes of a candidate's crease pass so near to it
+constexpr double largest_shift = 1.5;   // from where a crease was expected
+constexpr double side_overlap = 0.5;    // by so much noise may carry points past the crease
+constexpr int least_points = 4;         // that fix a plane
 
 struct Plane {
   Point normal{};
@@ -33,27 +31,27 @@ struct Plane {
 
 double height(const Plane& plane, const Point& p) { return dot(plane.normal, p) - plane.offset; }
 
-/// The points around a place, in local spacings from there.
+/// The points around a place, as seen from there.
 struct Window {
+  const WedgeView& view;
   std::vector<std::uint32_t> points;
   std::vector<Point> offsets;  // of the points
-  double scale = 1;            // local spacing in spacings of the cloud
+  double scale = 1;            // unit of the view in spacings of the cloud
 };
 
-/// About a place in the frame. Fewer than window_size points are no window.
+/// About a place in the frame. Fewer points than the view asks for are no window.
 std::optional<Window> window_at(const Point& place, const PointCloud& cloud, const NeighborSearch& search,
-                                const TraceFrame& frame) {
-  Window window;
+                                const TraceFrame& frame, const WedgeView& view) {
   const Point middle = frame.global(place);
-  window.points = search.nearest_to(middle, window_size);
-  if (window.points.size() < window_size) return std::nullopt;
+  Window window{view, search.nearest_to(middle, view.points), {}, 1};
+  if (window.points.size() < static_cast<std::size_t>(view.points)) return std::nullopt;
   const double radius = distance(cloud.positions[window.points.back()], middle);
-  const double local_spacing = radius * std::sqrt(kernels::pi / (window_size - 0.5));
-  if (!(local_spacing > 0)) return std::nullopt;
+  const double scale = view.unit * radius * std::sqrt(kernels::pi / (view.points - 0.5));
+  if (!(scale > 0)) return std::nullopt;
   window.offsets.reserve(window.points.size());
   for (const std::uint32_t q : window.points)
-    window.offsets.push_back(scaled(1 / local_spacing, difference(cloud.positions[q], middle)));
-  window.scale = local_spacing / frame.spacing;
+    window.offsets.push_back(scaled(1 / scale, difference(cloud.positions[q], middle)));
+  window.scale = scale / frame.spacing;
   return window;
 }
 
@@ -86,19 +84,24 @@ struct PlaneSums {
 };
 
 /// What a plane explains of a point: 1 on it, falling to 0 at the tolerance.
-double explained(double height) { return std::max(0.0, 1 - height * height / (tolerance * tolerance)); }
+double explained(double height, double tolerance) {
+  return std::max(0.0, 1 - height * height / (tolerance * tolerance));
+}
 
-/// The plane of a point of the window and its nearest there.
-std::optional<Plane> plane_at(const Window& window, std::size_t i) {
-  std::array<std::pair<double, std::size_t>, window_size> order;
+/// The plane of a point of the window and its nearest there. `order` is room to work in.
+std::optional<Plane> plane_at(const Window& window, std::size_t i,
+                              std::vector<std::pair<double, std::size_t>>& order) {
+  order.resize(window.offsets.size());
   for (std::size_t j = 0; j < window.offsets.size(); ++j) {
     const Point d = difference(window.offsets[j], window.offsets[i]);
     order[j] = {dot(d, d), j};
   }
-  std::nth_element(order.begin(), order.begin() + hypothesis_size - 1, order.end());
-  std::sort(order.begin(), order.begin() + hypothesis_size);
+  const int size = window.view.points_of_hypothesis;
+  std::nth_element(order.begin(), order.begin() + size - 1, order.end());
+  std::sort(order.begin(), order.begin() + size);
   PlaneSums sums;
-  for (std::size_t j = 0; j < hypothesis_size; ++j) sums.add(window.offsets[order[j].second], 1);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(size); ++j)
+    sums.add(window.offsets[order[j].second], 1);
   return sums.plane();
 }
 
@@ -107,14 +110,15 @@ using Planes = std::array<Plane, 2>;
 /// Of all pairs of hypotheses that pass near the middle the one that explains most.
 std::optional<Planes> best_pair(const Window& window) {
   std::vector<Plane> planes;
-  std::vector<std::array<float, window_size>> scores;
+  std::vector<std::vector<float>> scores;
+  std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < hypotheses; ++i) {
-    const std::optional<Plane> plane = plane_at(window, i);
+    const std::optional<Plane> plane = plane_at(window, i, order);
     if (!plane || std::abs(plane->offset) > near_crease) continue;
     planes.push_back(*plane);
-    auto& score = scores.emplace_back();
-    for (std::size_t j = 0; j < window.offsets.size(); ++j)
-      score[j] = static_cast<float>(explained(height(*plane, window.offsets[j])));
+    auto& score = scores.emplace_back(window.offsets.size());
+    for (std::size_t j = 0; j < score.size(); ++j)
+      score[j] = static_cast<float>(explained(height(*plane, window.offsets[j]), window.view.tolerance));
   }
   std::optional<Planes> best;
   float most = 0;
@@ -165,7 +169,8 @@ void choose_sides(Wedge& wedge, const Window& window) {
   for (std::size_t i = 0; i < 2; ++i) wedge.inward[i] = cross(wedge.tangent, wedge.planes[i].normal);
   for (const Point& p : window.offsets) {
     const std::size_t i = nearer_plane(wedge.planes, p);
-    balance[i] += explained(height(wedge.planes[i], p)) * dot(wedge.inward[i], difference(p, wedge.foot));
+    const double share = explained(height(wedge.planes[i], p), window.view.tolerance);
+    balance[i] += share * dot(wedge.inward[i], difference(p, wedge.foot));
   }
   for (std::size_t i = 0; i < 2; ++i)
     if (balance[i] < 0) wedge.inward[i] = scaled(-1, wedge.inward[i]);
@@ -191,7 +196,7 @@ std::optional<Wedge> refine(const Planes& start, const Window& window) {
     for (const Point& p : window.offsets) {
       const std::size_t i = nearer_plane(wedge->planes, p);
       const Point from_foot = difference(p, wedge->foot);
-      if (std::abs(height(wedge->planes[i], p)) > tolerance) continue;
+      if (std::abs(height(wedge->planes[i], p)) > window.view.tolerance) continue;
       if (dot(wedge->inward[i], from_foot) < -side_overlap) continue;
       sums[i].add(p, weight_of(from_foot, wedge->tangent));
     }
@@ -216,7 +221,7 @@ double share_explained(const Wedge& wedge, const Window& window) {
   std::array<int, 2> close{};
   for (const Point& p : window.offsets) {
     const std::size_t i = nearer_plane(wedge.planes, p);
-    const double share = explained(height(wedge.planes[i], p));
+    const double share = explained(height(wedge.planes[i], p), window.view.tolerance);
     if (share == 0) continue;
     const Point from_foot = difference(p, wedge.foot);
     const double inward = dot(wedge.inward[i], from_foot);
@@ -233,9 +238,14 @@ double share_explained(const Wedge& wedge, const Window& window) {
   return total / static_cast<double>(window.offsets.size());
 }
 
-/// Over the plane between the two: does w = k |v| + smooth explain the points better than w = k v^2 + smooth,
-/// with v across the line, u along it, and smooth = a + b u + c v + d u v + e u^2?
-bool is_kink(const Wedge& wedge, const Window& window) {
+/// How much better a crease explains the points than a smooth surface of as many parameters, as a difference
+/// of chi squared. Over the plane between the two: w = k |v| + rest against w = k v^2 + rest, with v across
+/// the line, u along it, and rest = a + b u + c v + d u v + e u^2.
+double evidence_of(const Wedge& wedge, const Window& window) {
+  // What turns by more than 60 degrees within the window is sharp, even if it is rounded.
+  constexpr double obtuse = -0.5;
+  constexpr double sharp = 25;
+  if (dot(wedge.inward[0], wedge.inward[1]) > obtuse) return sharp;
   // Along the bisector of the two sides, and up.
   const Point across = unit(difference(wedge.inward[0], wedge.inward[1]));
   const Point up = cross(wedge.tangent, across);
@@ -243,7 +253,7 @@ bool is_kink(const Wedge& wedge, const Window& window) {
   LeastSquares<6> smooth;
   for (const Point& p : window.offsets) {
     const std::size_t i = nearer_plane(wedge.planes, p);
-    if (std::abs(height(wedge.planes[i], p)) > 2 * tolerance) continue;
+    if (std::abs(height(wedge.planes[i], p)) > 2 * window.view.tolerance) continue;
     const Point d = difference(p, wedge.foot);
     const double u = dot(wedge.tangent, d);
     const double v = dot(across, d);
@@ -251,21 +261,16 @@ bool is_kink(const Wedge& wedge, const Window& window) {
     kink.add({std::abs(v), 1, u, v, u * v, u * u}, w);
     smooth.add({v * v, 1, u, v, u * v, u * u}, w);
   }
-  return kink.residual() < smooth.residual();
+  return (smooth.residual() - kink.residual()) / (window.view.noise * window.view.noise);
 }
 
-bool is_crease(const Wedge& wedge, const Window& window) {
-  // What turns by more than 60 degrees within the window is sharp, even if it is rounded.
-  constexpr double obtuse = -0.5;
-  return dot(wedge.inward[0], wedge.inward[1]) > obtuse || is_kink(wedge, window);
-}
-
-/// In the frame of the trace, of a window about `middle`. Nothing if it is no crease.
+/// In the frame of the trace, of a window about `middle`. Nothing if it is no wedge.
 std::optional<Foot> foot_of(const Wedge& wedge, const Window& window, const FeatureLabels& labels,
                             const Point& middle) {
   Foot foot;
   foot.quality = share_explained(wedge, window);
-  if (foot.quality == 0 || !is_crease(wedge, window)) return std::nullopt;
+  if (foot.quality == 0) return std::nullopt;
+  foot.evidence = evidence_of(wedge, window);
   foot.position = sum(middle, scaled(window.scale, wedge.foot));
   foot.tangent = wedge.tangent;
   foot.normals = {wedge.planes[0].normal, wedge.planes[1].normal};
@@ -281,20 +286,35 @@ std::optional<Foot> foot_of(const Wedge& wedge, const Window& window, const Feat
 
 }  // namespace
 
+WedgeView view_of(double noise) {
+  constexpr double seen_well = 0.06;  // noise that the default view is made for
+  constexpr double most = 2;          // times the points: with more, small faces are lost
+  constexpr double noises_within = 3.5;
+  WedgeView view;
+  const double more = std::clamp(noise / seen_well, 1.0, most);
+  view.unit = std::sqrt(more);
+  view.points = static_cast<int>(view.points * more);
+  view.points_of_hypothesis = static_cast<int>(view.points_of_hypothesis * more);
+  view.noise = std::max(view.noise, noise / view.unit);
+  view.tolerance = std::max(view.tolerance, noises_within * view.noise);
+  return view;
+}
+
 std::optional<Foot> WedgeTracker::find(std::uint32_t point) const {
   const Point middle = frame_.local(cloud_.positions[point]);
-  const auto window = window_at(middle, cloud_, search_, frame_);
+  const auto window = window_at(middle, cloud_, search_, frame_, view_);
   if (!window) return std::nullopt;
   const auto pair = best_pair(*window);
   if (!pair) return std::nullopt;
   const auto wedge = refine(*pair, *window);
   if (!wedge || length(wedge->foot) > largest_shift) return std::nullopt;
-  return foot_of(*wedge, *window, labels_, middle);
+  const std::optional<Foot> foot = foot_of(*wedge, *window, labels_, middle);
+  return foot && foot->evidence > 0 ? foot : std::nullopt;
 }
 
 std::optional<Foot> WedgeTracker::follow(const Foot& from, const Point& expected) const {
   constexpr double steady = 0.97;  // where a line bends the old planes hold on to too few points
-  const auto window = window_at(expected, cloud_, search_, frame_);
+  const auto window = window_at(expected, cloud_, search_, frame_, view_);
   if (!window) return std::nullopt;
   const auto foot_by = [&](const Planes& planes) -> std::optional<Foot> {
     const auto wedge = refine(planes, *window);
@@ -306,10 +326,11 @@ std::optional<Foot> WedgeTracker::follow(const Foot& from, const Point& expected
   const Point back = scaled(1 / window->scale, difference(from.position, expected));
   const auto old_plane = [&](const Point& normal) { return Plane{normal, dot(normal, back)}; };
   std::optional<Foot> foot = foot_by({old_plane(from.normals[0]), old_plane(from.normals[1])});
-  if (foot && foot->quality > steady * from.quality) return foot;
+  if (foot && foot->evidence > 0 && foot->quality > steady * from.quality) return foot;
   const auto pair = best_pair(*window);
   const std::optional<Foot> fresh = pair ? foot_by(*pair) : std::nullopt;
-  return fresh && (!foot || fresh->quality > foot->quality) ? fresh : foot;
+  const auto rank = [](const Foot& f) { return std::pair(f.evidence > 0, f.quality); };
+  return fresh && (!foot || rank(*fresh) > rank(*foot)) ? fresh : foot;
 }
 
 }  // namespace keenline
