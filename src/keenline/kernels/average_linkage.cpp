@@ -215,9 +215,8 @@ Clusters prepared(std::uint32_t* sums, int count, LinkageWorkspace& workspace) {
 /// \pre 0 < count <= largest_count_of_vectors
 void cluster(std::uint32_t* sums, int count, LinkageWorkspace& workspace, Merge* merges) {
   Clusters clusters = prepared(sums, count, workspace);
-  const Merge* const end = merges + count - 1;
   std::uint32_t before = none;
-  for (std::uint32_t top = 0, number = 1; merges != end;) {
+  for (std::uint32_t top = 0, number = 1; number < static_cast<std::uint32_t>(count);) {
     auto& cluster = clusters[top];
     // The nearest stays the nearest until it is merged itself, see average_linkage().
     if (cluster.nearest_size == 0 || clusters[cluster.nearest].size != cluster.nearest_size) {
