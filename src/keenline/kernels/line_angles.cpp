@@ -154,7 +154,8 @@ std::uint32_t line_angle(float cosine) {
   const float c = std::min(std::abs(cosine), 1.0F);
   float p = arc_cosine_polynomial[0];
   for (std::size_t i = 1; i < arc_cosine_polynomial.size(); ++i) p = p * c + arc_cosine_polynomial[i];
-  return static_cast<std::uint32_t>(std::sqrt(1.0F - c) * p + 0.5F);
+  const float units = std::sqrt(1.0F - c) * p + 0.5F;
+  return static_cast<std::uint32_t>(units);
 }
 
 template <typename Sum>
