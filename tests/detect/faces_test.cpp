@@ -63,6 +63,22 @@ TEST(Faces, AHalfPlaneIsOneFaceThatEnds) {
   EXPECT_TRUE(faces[0].is_half);
 }
 
+TEST(Faces, EndWhereASectorOf115DegreesIsEmptyWhateverItsDirection) {
+  for (const double gap : {60.0, 100.0, 112.0, 114.5, 115.5, 130.0, 159.0, 161.0, 200.0}) {
+    for (int turn = 0; turn < 360; turn += 3) {
+      std::vector<Point> positions;
+      for (int i = 0; i < 16; ++i) {
+        const double angle = (turn + (360 - gap) * i / 15) * degree;
+        positions.push_back({std::cos(angle), std::sin(angle), 0});
+      }
+      const auto faces = faces_of(positions);
+      ASSERT_EQ(faces.size(), 1U);
+      EXPECT_EQ(faces[0].ends, gap > 115) << gap << ' ' << turn;
+      EXPECT_EQ(faces[0].is_half, gap > 160) << gap << ' ' << turn;
+    }
+  }
+}
+
 TEST(Faces, AlmostParallelLinesAreOneFaceWithoutClustering) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> place(-1, 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 #include "keenline/detect/gauss_map.h"
@@ -19,7 +20,7 @@ constexpr std::uint32_t none = 0xFFFF'FFFFU;
 constexpr double smallest_birth = 1 * angle_units_per_degree;
 /// Cosines of the sectors of Face::ends and Face::is_half. On a lattice sectors are 90° inside a face and
 /// 135° or more on its edge; those of random points inside a face are rarely above 100°.
-constexpr double end_cosine = -0.42261826174069944;   // 115°
+constexpr double end_cosine = -0.42261826174069944;   // 115°, see may_leave_wide_sector()
 constexpr double half_cosine = -0.93969262078590838;  // 160°
 
 /// sin, for 0 … 45 degrees, to 1e-6: by + and * only, for the same bits on every CPU.
@@ -43,7 +44,28 @@ double sector_cosine(const std::array<double, 2>& a, const std::array<double, 2>
   return (a[0] * b[0] + a[1] * b[1]) / lengths;
 }
 
-/// Cosine of the widest sector that the neighbours on the face leave empty; -1 from 180 degrees on.
+/// Which of sixteen equal sectors a direction lies in, counter-clockwise from the positive x axis.
+int sixteenth_of_turn(const std::array<double, 2>& direction) {
+  constexpr double tangent = 0.41421356237309503;  // of 22.5 degrees
+  const double x = std::abs(direction[0]);
+  const double y = std::abs(direction[1]);
+  int of_quarter = 0;
+  if (y > x) of_quarter = x > tangent * y ? 2 : 3;
+  else if (y > tangent * x) of_quarter = 1;
+  if (direction[1] < 0) return direction[0] < 0 ? 8 + of_quarter : 15 - of_quarter;
+  return direction[0] < 0 ? 7 - of_quarter : of_quarter;
+}
+
+/// False only if no sector of more than 112.5 degrees is empty: one would hold four whole sixteenths.
+bool may_leave_wide_sector(std::span<const std::array<double, 2>> directions) {
+  std::uint32_t taken = 0;
+  for (const auto& direction : directions) taken |= 1U << sixteenth_of_turn(direction);
+  const std::uint32_t empty = ~(taken | taken << 16);  // twice around
+  return (empty & empty >> 1 & empty >> 2 & empty >> 3) != 0;
+}
+
+/// Cosine of the widest sector that the neighbours on the face leave empty; -1 from 180 degrees on, 0 where
+/// it is no wider than 112.5.
 double widest_sector_cosine(const GaussMap& map, const Face& face) {
   // On the face lies what is no further off its plane than the face scatters, and at least 12 degrees: a
   // curved face falls away from its plane, and the smallest dihedral angles of interest are larger.
@@ -65,6 +87,7 @@ double widest_sector_cosine(const GaussMap& map, const Face& face) {
   }
   if (count < 2) return -1;
   const std::span sectors(on_face.data(), count);
+  if (!may_leave_wide_sector(sectors)) return 0;  // most points: spares them the sorting
   std::sort(sectors.begin(), sectors.end(), turns_before);
   if (!turns_before(sectors[0], sectors[count - 1])) return -1;  // all in one direction
   double cosine = sector_cosine(sectors[count - 1], sectors[0]);
