@@ -257,8 +257,9 @@ FeatureGraph lines_of(const PointCloud& cloud, const NeighborSearch& search, con
   if (job.snap) {
     graph = straighten_lines(snap_lines(graph, cloud, search, spacing, {}, progress), spacing);
     graph = straighten_lines(join_lines(graph, spacing), spacing);  // halves agree when both are straight
+  } else if (job.smooth_lines) {
+    graph = smooth_lines(graph);
   }
-  if (!job.snap && job.smooth_lines) graph = smooth_lines(graph);
   if (job.resample_spacings > 0) graph = resample_lines(graph, job.resample_spacings * spacing, progress);
   if (job.fit_spacings > 0) graph = fit_lines(graph, job.fit_spacings * spacing, progress);
   // Snapping has looked at the sides already.

@@ -43,14 +43,18 @@ TEST(TraceLines, ACubeAsTheDefaultMethodSeesIt) {
   EXPECT_LT(found.corners.largest, 0.3 * shape.spacing);
 }
 
+void expect_true_graph(const GraphComparison& found, const char* name) {
+  EXPECT_EQ(found.found.corners, found.truth.corners) << name;
+  EXPECT_EQ(found.found.polylines, found.truth.polylines) << name;
+  EXPECT_EQ(found.found.loops, found.truth.loops) << name;
+  EXPECT_EQ(found.found.loose_ends, 0U) << name;
+}
+
 TEST(TraceLines, TheRightGraphFromPerfectLabels) {
   for (const char* const name : {"box", "cylinder", "through-hole", "icosahedron"}) {
     const LabelledShape shape = labelled_shape(name, 6000, 0.02);
     const GraphComparison found = compare(traced(shape), shape);
-    EXPECT_EQ(found.found.corners, found.truth.corners) << name;
-    EXPECT_EQ(found.found.polylines, found.truth.polylines) << name;
-    EXPECT_EQ(found.found.loops, found.truth.loops) << name;
-    EXPECT_EQ(found.found.loose_ends, 0U) << name;
+    expect_true_graph(found, name);
     EXPECT_NEAR(found.length_ratio, 1, 0.01) << name;
     EXPECT_LT(found.found_to_truth.mean, 0.2 * shape.spacing) << name;
   }
@@ -64,10 +68,7 @@ TEST(TraceLines, TheRightGraphInNoise) {
   for (const auto& [name, noise] : {Case{"icosahedron", 0.1}, Case{"box", 0.2}, Case{"cylinder", 0.2}}) {
     const LabelledShape shape = labelled_shape(name, 6000, noise);
     const GraphComparison found = compare(traced(shape), shape);
-    EXPECT_EQ(found.found.corners, found.truth.corners) << name;
-    EXPECT_EQ(found.found.polylines, found.truth.polylines) << name;
-    EXPECT_EQ(found.found.loops, found.truth.loops) << name;
-    EXPECT_EQ(found.found.loose_ends, 0U) << name;
+    expect_true_graph(found, name);
     EXPECT_NEAR(found.length_ratio, 1, 0.03) << name;
   }
 }

@@ -38,14 +38,11 @@ struct StraightLine {
 
 /// The point of least squares of the lines, as far as they fix one; else nearest to the point given.
 Point nearest_to_all(const std::vector<StraightLine>& lines, const Point& point) {
-  kernels::Symmetric3 across;
+  const auto count = static_cast<double>(lines.size());
+  kernels::Symmetric3 across{count, 0, 0, count, 0, count};
   Point right{0, 0, 0};
   for (const StraightLine& line : lines) {
-    const Point& d = line.direction;
-    kernels::add_square(across, {1, 0, 0}, 1);
-    kernels::add_square(across, {0, 1, 0}, 1);
-    kernels::add_square(across, {0, 0, 1}, 1);
-    kernels::add_square(across, d, -1);
+    kernels::add_square(across, line.direction, -1);
     right = sum(right, difference(line.foot(point), point));
   }
   const kernels::Eigen3 axes = kernels::eigen_decomposition(across);
