@@ -66,7 +66,7 @@ struct Dendrogram {
   LinkageWorkspace workspace;
 
   void cluster(const Point& point) {
-    benchmark::DoNotOptimize(average_linkage(sums.data(), point.count, workspace, merges.data()));
+    benchmark::DoNotOptimize(average_linkage(sums.data(), point.count, 1, workspace, merges.data()));
   }
 };
 

@@ -39,7 +39,7 @@ TEST(Cone, IsFoundFromAStartBesideItsApex) {
   const Point apex{0.4, -0.2, 0.3};
   for (const double opening : {40.0, 60.0, 90.0, 125.0}) {
     const std::vector<Point> points = cone_points(opening, apex);
-    const Cone cone = fitted_cone(points, ones(points), {0, 0, 0});
+    const Cone cone = fitted_cone(points, ones(points), {0, 0, 0}).value();
     EXPECT_LT(distance(cone.apex, apex), 1e-5) << opening;
     EXPECT_NEAR(cone.squared_sine(), std::pow(std::sin(opening / 2 * degree), 2), 1e-5) << opening;
     EXPECT_NEAR(dot(unit(cone.slope), test::turned({0, 0, 1})), 1, 1e-6) << opening;
@@ -54,7 +54,7 @@ TEST(Cone, PointsWithoutWeightDoNotCount) {
     points.push_back({0.1 * i, 1, -2});
     weights.push_back(0);
   }
-  const Cone cone = fitted_cone(points, weights, {0.1, 0.1, 0.1});
+  const Cone cone = fitted_cone(points, weights, {0.1, 0.1, 0.1}).value();
   EXPECT_LT(length(cone.apex), 1e-5);
   EXPECT_LT(mean_square_off(cone, points, weights), 1e-10);
 }
@@ -100,7 +100,20 @@ TEST(Cone, WiresPlatesAndNonsenseAreNotPointed) {
   EXPECT_FALSE(is_pointed({}));
   EXPECT_FALSE(is_pointed({{0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 1, 0}}));
   const std::vector<Point> coincident(20, Point{1, 1, 1});
-  EXPECT_FALSE(is_pointed(fitted_cone(coincident, ones(coincident), {1, 1, 1})));
+  EXPECT_FALSE(is_pointed(fitted_cone(coincident, ones(coincident), {1, 1, 1}).value_or(Cone{})));
+}
+
+TEST(Cone, IsNotLookedForBeyondThePoints) {
+  // An edge and a plane: cones fit the better the farther off their apex is.
+  std::vector<Point> edge;
+  std::vector<Point> plane;
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y) {
+      edge.push_back({x * 0.3, y * 0.31, std::abs(x * 0.2)});
+      plane.push_back({x * 0.3, y * 0.31, (x * y * 7 + x + y) % 3 * 0.02});
+    }
+  EXPECT_FALSE(fitted_cone(edge, ones(edge), {0, 0, 0}).has_value());
+  EXPECT_FALSE(fitted_cone(plane, ones(plane), {0, 0, 0}).has_value());
 }
 
 }  // namespace

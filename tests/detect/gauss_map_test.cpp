@@ -36,6 +36,8 @@ TEST(GaussMapOfAPoint, OneLinePerPairOfNeighbours) {
   map.cluster();
   ASSERT_EQ(map.merges().size(), 20U);
   for (const kernels::Merge& merge : map.merges()) EXPECT_EQ(merge.height, 0);
+  map.cluster(5);
+  EXPECT_EQ(map.merges().size(), 16U);
   map.clear();
   EXPECT_EQ(map.lines().count, 0);
   EXPECT_TRUE(map.merges().empty());

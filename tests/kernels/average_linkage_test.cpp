@@ -49,7 +49,7 @@ std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
 }
 
 template <typename Sum>
-std::vector<Merge> by_nearest(const Matrix& distances, std::size_t n) {
+std::vector<Merge> by_nearest(const Matrix& distances, std::size_t n, int rest = 1) {
   const std::size_t row = row_length(static_cast<int>(n));
   std::vector<Sum> sums(n * row, 4711);
   for (std::size_t i = 0; i < n; ++i)
@@ -57,14 +57,22 @@ std::vector<Merge> by_nearest(const Matrix& distances, std::size_t n) {
                 sums.begin() + static_cast<std::ptrdiff_t>(i * row));
   std::vector<Merge> merges(n - 1);
   LinkageWorkspace workspace;
-  EXPECT_TRUE(average_linkage(sums.data(), static_cast<int>(n), workspace, merges.data()));
+  const auto made = average_linkage(sums.data(), static_cast<int>(n), rest, workspace, merges.data());
+  EXPECT_TRUE(made.has_value());
+  merges.resize(static_cast<std::size_t>(made.value_or(0)));
   return merges;
 }
 
 using Key = std::tuple<double, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-std::vector<Key> sorted_keys(const std::vector<Merge>& merges) {
+std::vector<Key> keys_of(const std::vector<Merge>& merges) {
   std::vector<Key> keys;
+  keys.reserve(merges.size());
   for (const Merge& m : merges) keys.emplace_back(m.height, m.first, m.second, m.first_size, m.second_size);
+  return keys;
+}
+
+std::vector<Key> sorted_keys(const std::vector<Merge>& merges) {
+  std::vector<Key> keys = keys_of(merges);
   std::sort(keys.begin(), keys.end());
   return keys;
 }
@@ -179,9 +187,7 @@ TEST(AverageLinkage, GivesTheSameListOnEveryTargetForAnyNumberOfItems) {
           gathered_lines(n, 1, seed)}) {
       std::vector<Key> expected;
       on_each_target([&] {
-        std::vector<Key> found;  // not sorted
-        for (const Merge& m : by_nearest<std::uint32_t>(distances, n))
-          found.emplace_back(m.height, m.first, m.second, m.first_size, m.second_size);
+        const std::vector<Key> found = keys_of(by_nearest<std::uint32_t>(distances, n));
         if (target_is_scalar()) expected = found;
         ASSERT_EQ(found, expected) << n;
       });
@@ -235,13 +241,38 @@ TEST(AverageLinkage, HoldsTheLargestSumsOfVectors) {
   }
 }
 
+TEST(AverageLinkage, LeavesOutWhatMakesNoOtherLargeCluster) {
+  for (const int rest : {2, 5, 12, 20, 21, 30, 40, 41}) {
+    const std::size_t n = 40;
+    const Matrix distances = gathered_lines(n, 0.5, 3);
+    const std::vector<Key> all = keys_of(by_nearest<std::uint32_t>(distances, n));
+    const auto is_large = [&](std::uint32_t size) { return static_cast<int>(size) >= rest; };
+    const auto check = [&](const std::vector<Merge>& merges) {
+      const std::vector<Key> made = keys_of(merges);
+      ASSERT_LE(made.size(), all.size());
+      EXPECT_TRUE(std::equal(made.begin(), made.end(), all.begin())) << rest;
+      std::uint32_t largest = 1;
+      for (const Merge& m : merges) largest = std::max(largest, m.first_size + m.second_size);
+      EXPECT_GE(largest, std::min(std::max(n - rest + 1, std::size_t(rest)), n));
+      for (std::size_t i = made.size(); i < all.size(); ++i) {
+        const auto [height, first, second, first_size, second_size] = all[i];
+        EXPECT_FALSE(is_large(first_size) && is_large(second_size)) << rest;
+        EXPECT_EQ(is_large(first_size + second_size), is_large(std::max(first_size, second_size))) << rest;
+      }
+    };
+    on_each_target([&] { check(by_nearest<std::uint32_t>(distances, n, rest)); });
+    check(by_nearest<std::uint64_t>(distances, n, rest));
+  }
+}
+
 TEST(AverageLinkage, StopsWhenAsked) {
   on_each_target([] {
     std::vector<std::uint32_t> sums(50 * row_length(50));
     std::vector<Merge> merges(49);
     LinkageWorkspace workspace;
-    EXPECT_FALSE(
-        average_linkage(sums.data(), 50, workspace, merges.data(), [](const void*) { return true; }));
+    const auto made =
+        average_linkage(sums.data(), 50, 1, workspace, merges.data(), [](const void*) { return true; });
+    EXPECT_FALSE(made.has_value());
   });
 }
 

@@ -96,6 +96,12 @@ Cone cone_from(const Point& apex, std::span<const Point> points, std::span<const
   return cone;
 }
 
+double farthest_from(const Point& origin, std::span<const Point> points) {
+  double reach = 0;
+  for (const Point& q : points) reach = std::max(reach, distance(origin, q));
+  return reach;
+}
+
 }  // namespace
 
 double Cone::squared_sine() const { return 1 - 1 / dot(slope, slope); }
@@ -107,7 +113,9 @@ bool is_pointed(const Cone& cone) {
   return slope >= smallest && slope <= largest;
 }
 
-Cone fitted_cone(std::span<const Point> points, std::span<const double> weights, const Point& apex) {
+std::optional<Cone> fitted_cone(std::span<const Point> points, std::span<const double> weights,
+                                const Point& apex) {
+  const double reach = farthest_from(apex, points);
   Cone cone = cone_from(apex, points, weights);
   double sum = misfit(cone, points, weights);
   double damping = 1e-3;
@@ -116,6 +124,8 @@ Cone fitted_cone(std::span<const Point> points, std::span<const double> weights,
     const Cone next = improved(cone, points, weights, damping);
     const double next_sum = misfit(next, points, weights);
     if (next_sum < sum) {
+      // What is no tip is fitted ever better by ever larger cones.
+      if (!(distance(next.apex, apex) <= reach)) return std::nullopt;
       const bool has_arrived = next_sum > 0.999 * sum;
       cone = next;
       sum = next_sum;

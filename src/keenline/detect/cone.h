@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "keenline/cloud.h"
@@ -22,11 +23,12 @@ struct Cone {
 [[nodiscard]] bool is_pointed(const Cone& cone);
 
 /// The cone with the least weighted sum of squared differences of the equation's sides, by the method of
-/// Levenberg and Marquardt from the best cone whose apex is `apex`. With + - * / and square roots only.
-/// Cost: O(points), a dozen times.
+/// Levenberg and Marquardt from the best cone whose apex is `apex`. None where the search leaves the points,
+/// farther from there than all of them: as it does where they are on no tip. With + - * / and square roots
+/// only. Cost: O(points), a dozen times at most, three times on no tip.
 /// \pre as many weights as points; coordinates of about 1
-[[nodiscard]] Cone fitted_cone(std::span<const Point> points, std::span<const double> weights,
-                               const Point& apex);
+[[nodiscard]] std::optional<Cone> fitted_cone(std::span<const Point> points, std::span<const double> weights,
+                                              const Point& apex);
 
 /// Weighted mean of the squared distances from the cone, to first order.
 /// \pre as many weights as points

@@ -18,6 +18,8 @@ using kernels::angle_units_per_degree;
 constexpr std::uint32_t none = 0xFFFF'FFFFU;
 /// Faces that scatter less than a degree are as good as exact.
 constexpr double smallest_birth = 1 * angle_units_per_degree;
+/// Neighbours so far off the plane of a face that does not scatter are on it.
+constexpr double least_tolerance_deg = 12;
 /// Cosines of the sectors of Face::ends and Face::is_half. On a lattice sectors are 90° inside a face and
 /// 135° or more on its edge; those of random points inside a face are rarely above 100°.
 constexpr double end_cosine = -0.42261826174069944;   // 115°, see may_leave_wide_sector()
@@ -64,34 +66,41 @@ bool may_leave_wide_sector(std::span<const std::array<double, 2>> directions) {
   return (empty & empty >> 1 & empty >> 2 & empty >> 3) != 0;
 }
 
+using Directions = std::array<std::array<double, 2>, 255>;
+
+/// In the plane across the normal, the directions to the neighbours that are no further off it than so many
+/// degrees.
+std::span<std::array<double, 2>> directions_on_plane(const GaussMap& map, const Point& normal,
+                                                     double tolerance_deg, Directions& room) {
+  const double tolerance = sine_of(tolerance_deg);
+  const std::size_t smallest = std::abs(normal[0]) < 0.6 ? 0 : 1;
+  Point axis{0, 0, 0};
+  axis[smallest] = 1;
+  const Point u = unit(cross(normal, axis));
+  const Point v = cross(normal, u);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < map.offsets().size(); ++i) {
+    const Point& offset = map.offsets()[i];
+    if (std::abs(dot(offset, normal)) <= tolerance * map.lengths()[i])
+      room[count++] = {dot(offset, u), dot(offset, v)};
+  }
+  return std::span(room).first(count);
+}
+
 /// Cosine of the widest sector that the neighbours on the face leave empty; -1 from 180 degrees on, 0 where
 /// it is no wider than 112.5.
 double widest_sector_cosine(const GaussMap& map, const Face& face) {
   // On the face lies what is no further off its plane than the face scatters, and at least 12 degrees: a
   // curved face falls away from its plane, and the smallest dihedral angles of interest are larger.
-  const double tolerance = sine_of(std::clamp(face.birth / angle_units_per_degree + 5, 12.0, 40.0));
-  const std::size_t smallest = std::abs(face.normal[0]) < 0.6 ? 0 : 1;
-  Point axis{0, 0, 0};
-  axis[smallest] = 1;
-  Point u = cross(face.normal, axis);
-  const double length = std::sqrt(dot(u, u));
-  for (double& c : u) c /= length;
-  const Point v = cross(face.normal, u);
-
-  std::array<std::array<double, 2>, 255> on_face;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < map.offsets().size(); ++i) {
-    const Point& offset = map.offsets()[i];
-    if (std::abs(dot(offset, face.normal)) <= tolerance * map.lengths()[i])
-      on_face[count++] = {dot(offset, u), dot(offset, v)};
-  }
-  if (count < 2) return -1;
-  const std::span sectors(on_face.data(), count);
+  const double tolerance_deg = std::clamp(face.birth / angle_units_per_degree + 5, least_tolerance_deg, 40.0);
+  Directions room;
+  const auto sectors = directions_on_plane(map, face.normal, tolerance_deg, room);
+  if (sectors.size() < 2) return -1;
   if (!may_leave_wide_sector(sectors)) return 0;  // most points: spares them the sorting
   std::sort(sectors.begin(), sectors.end(), turns_before);
-  if (!turns_before(sectors[0], sectors[count - 1])) return -1;  // all in one direction
-  double cosine = sector_cosine(sectors[count - 1], sectors[0]);
-  for (std::size_t i = 0; i + 1 < count; ++i)
+  if (!turns_before(sectors.front(), sectors.back())) return -1;  // all in one direction
+  double cosine = sector_cosine(sectors.back(), sectors.front());
+  for (std::size_t i = 0; i + 1 < sectors.size(); ++i)
     cosine = std::min(cosine, sector_cosine(sectors[i], sectors[i + 1]));
   return cosine;
 }
@@ -180,10 +189,18 @@ void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWo
 
 double unresolved_angle(double persistence) { return persistence * smallest_birth; }
 
-Face lone_face(const GaussMap& map) {
+bool lone_face_is_half(const GaussMap& map) {
+  // Any of the lines is nearly the normal, at most 7 degrees off. What is 5 degrees off its plane is no more
+  // than 12 off the face's, and seen on the one plane a sector is a few degrees wider than on the other, not
+  // the 47 that half_cosine asks for.
+  const kernels::Lines lines = map.lines();
+  Directions room;
+  const Point line{lines.x[0], lines.y[0], lines.z[0]};
+  const auto sectors = directions_on_plane(map, line, least_tolerance_deg - 7, room);
+  if (!may_leave_wide_sector(sectors)) return false;
   Face face{map.common_direction(), 0};
   look_for_ends(map, face);
-  return face;
+  return face.is_half;
 }
 
 }  // namespace keenline

@@ -58,8 +58,8 @@ void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWo
 /// times one degree.
 [[nodiscard]] double unresolved_angle(double persistence);
 
-/// What find_faces() returns, but for the birth, where all lines are nearer to each other than that and than
-/// 7 degrees: one face. Needs no clustering. \pre at least min_cluster lines
-[[nodiscard]] Face lone_face(const GaussMap& map);
+/// Face::is_half of the one face that find_faces() returns where all lines are nearer to each other than that
+/// and than 7 degrees. Needs no clustering. \pre at least min_cluster lines
+[[nodiscard]] bool lone_face_is_half(const GaussMap& map);
 
 }  // namespace keenline

@@ -54,13 +54,15 @@ void GaussMap::find_lines() {
 }
 
 template <typename Sum>
-void GaussMap::cluster(std::vector<Sum>& sums) {
+void GaussMap::cluster(std::vector<Sum>& sums, int rest) {
   const auto n = static_cast<int>(x_.size());
   sums.resize(x_.size() * kernels::row_length(n));
   kernels::line_angles(lines(), sums.data());
   const auto stop = [](const void* progress) { return static_cast<const Progress*>(progress)->cancelled(); };
-  if (!kernels::average_linkage(sums.data(), n, workspace_, merges_.data(), stop, progress_))
-    throw Cancelled();
+  const std::optional<int> merges =
+      kernels::average_linkage(sums.data(), n, rest, workspace_, merges_.data(), stop, progress_);
+  if (!merges) throw Cancelled();
+  merges_.resize(static_cast<std::size_t>(*merges));
 }
 
 void GaussMap::clear() {
@@ -69,10 +71,10 @@ void GaussMap::clear() {
   merges_.clear();
 }
 
-void GaussMap::cluster() {
+void GaussMap::cluster(int rest) {
   merges_.resize(x_.size() - 1);
-  if (x_.size() <= kernels::largest_count_in_32_bits) cluster(sums32_);
-  else cluster(sums64_);
+  if (x_.size() <= kernels::largest_count_in_32_bits) cluster(sums32_, rest);
+  else cluster(sums64_, rest);
 }
 
 Point GaussMap::common_direction() const {

@@ -27,13 +27,14 @@ class GaussMap {
   /// No lines, no merges.
   void clear();
 
-  /// Clusters the collected lines. \pre lines().count >= 1 \throw Cancelled
-  void cluster();
+  /// Clusters the collected lines, until one cluster has `rest` of them and less are outside: what is left
+  /// out makes or takes in no other cluster of so many. \pre lines().count >= 1 \throw Cancelled
+  void cluster(int rest = 1);
 
   [[nodiscard]] kernels::Lines lines() const {
     return {x_.data(), y_.data(), z_.data(), static_cast<int>(x_.size())};
   }
-  /// After cluster(): lines().count - 1 merges, each after those that it consists of.
+  /// After cluster(): each after those that it consists of; lines().count - 1 where rest was 1.
   [[nodiscard]] std::span<const kernels::Merge> merges() const { return merges_; }
   /// q - p of every neighbour, scaled.
   [[nodiscard]] std::span<const Point> offsets() const { return offsets_; }
@@ -50,7 +51,7 @@ class GaussMap {
                         std::span<const std::uint32_t> neighbors, double factor);
   void find_lines();
   template <typename Sum>
-  void cluster(std::vector<Sum>& sums);
+  void cluster(std::vector<Sum>& sums, int rest);
 
   double min_sine_;
   const Progress* progress_;

@@ -25,8 +25,9 @@ constexpr double no_lines = std::numeric_limits<double>::infinity();
 double scatter_deg(GaussMap& map, FaceWorkspace& workspace, std::vector<Face>& faces) {
   const int lines = map.lines().count;
   if (lines < 3) return no_lines;
-  map.cluster();
-  find_faces(map, std::max(3, (lines + 9) / 10), 90, workspace, faces);
+  const int min_cluster = std::max(3, (lines + 9) / 10);
+  map.cluster(min_cluster);
+  find_faces(map, min_cluster, 90, workspace, faces);
   double birth = no_lines;
   for (const Face& face : faces) birth = std::min(birth, face.birth);
   return birth / kernels::angle_units_per_degree;

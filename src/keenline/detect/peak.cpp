@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "keenline/cloud.h"
@@ -54,15 +55,16 @@ bool is_peak(const GaussMap& map) {
   std::vector<Point> points{{0, 0, 0}};  // the point itself
   points.insert(points.end(), map.offsets().begin(), map.offsets().end());
   const std::vector<double> weights(points.size(), 1);
-  const Cone cone = fitted_cone(points, weights, points[0]);
-  if (!is_pointed(cone)) return false;
+  const std::optional<Cone> cone = fitted_cone(points, weights, points[0]);
+  if (!cone || !is_pointed(*cone)) return false;
   const double reach = *std::max_element(map.lengths().begin(), map.lengths().end());
-  if (!is_nearest_to_apex(map, cone, reach)) return false;
+  if (!is_nearest_to_apex(map, *cone, reach)) return false;
 
-  const double mean_square = mean_square_off(cone, points, weights);
+  const double mean_square = mean_square_off(*cone, points, weights);
   const double largest = largest_residual * reach;
-  if (!(mean_square <= largest * largest * cone.squared_sine()) || !encloses_axis(cone, points)) return false;
-  return mean_square <= largest_ratio * largest_ratio * mean_square_off_paraboloid(cone, points, weights);
+  if (!(mean_square <= largest * largest * cone->squared_sine()) || !encloses_axis(*cone, points))
+    return false;
+  return mean_square <= largest_ratio * largest_ratio * mean_square_off_paraboloid(*cone, points, weights);
 }
 
 }  // namespace keenline

@@ -63,7 +63,7 @@ CreaseDirection PointLabeler::direction() const {
 }
 
 const GaussMap& PointLabeler::clustered_map() {
-  if (map_.merges().empty() && map_.lines().count > 1) map_.cluster();
+  if (map_.lines().count > 0) map_.cluster();
   return map_;
 }
 
@@ -86,11 +86,10 @@ void PointLabeler::look(std::size_t point, std::span<const std::uint32_t> neighb
   }
   if (!options_.plain && lines >= min_cluster_ &&
       kernels::all_within(map_.lines(), std::min(smallest_angle, unresolved_angle(persistence_)) - 2)) {
-    const Face face = lone_face(map_);
-    steps_.push_back({0, face.is_half ? Kind::Border : Kind::Flat, 1});
+    steps_.push_back({0, lone_face_is_half(map_) ? Kind::Border : Kind::Flat, 1});
     return;
   }
-  map_.cluster();
+  map_.cluster(min_cluster_);
   score_ = sharpness_deg();
   if (options_.plain) count_clusters();
   else read_faces();

@@ -43,7 +43,7 @@ class PointLabeler {
   [[nodiscard]] float score() const { return score_; }
   /// Lines of a significant cluster.
   [[nodiscard]] int min_cluster() const { return min_cluster_; }
-  /// Clustered, whether the label took it or not.
+  /// Clustered to the end, whether the label took it or not.
   [[nodiscard]] const GaussMap& clustered_map();
 
  private:

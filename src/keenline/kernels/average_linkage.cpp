@@ -22,7 +22,10 @@ namespace keenline::kernels::HWY_NAMESPACE {
 namespace {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 // Never called, see target_is_scalar().
-void cluster(std::uint32_t* /*sums*/, int /*count*/, LinkageWorkspace& /*workspace*/, Merge* /*merges*/) {}
+int cluster(std::uint32_t* /*sums*/, int /*count*/, std::uint32_t /*enough*/, LinkageWorkspace& /*workspace*/,
+            Merge* /*merges*/) {
+  return 0;
+}
 #else
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -213,10 +216,12 @@ Clusters prepared(std::uint32_t* sums, int count, LinkageWorkspace& workspace) {
 }
 
 /// \pre 0 < count <= largest_count_of_vectors
-void cluster(std::uint32_t* sums, int count, LinkageWorkspace& workspace, Merge* merges) {
+int cluster(std::uint32_t* sums, int count, std::uint32_t enough, LinkageWorkspace& workspace,
+            Merge* merges) {
   Clusters clusters = prepared(sums, count, workspace);
+  const Merge* const first_merge = merges;
   std::uint32_t before = none;
-  for (std::uint32_t top = 0, number = 1; number < static_cast<std::uint32_t>(count);) {
+  for (std::uint32_t top = 0, number = 1; clusters[top].size < enough;) {
     auto& cluster = clusters[top];
     // The nearest stays the nearest until it is merged itself, see average_linkage().
     if (cluster.nearest_size == 0 || clusters[cluster.nearest].size != cluster.nearest_size) {
@@ -233,6 +238,7 @@ void cluster(std::uint32_t* sums, int count, LinkageWorkspace& workspace, Merge*
     top = std::min(top, next);
     before = none;
   }
+  return static_cast<int>(merges - first_merge);
 }
 
 #endif
@@ -318,13 +324,14 @@ void join(Clusters<Sum>& clusters, std::size_t a, std::size_t b) {
 }  // namespace
 
 template <typename Sum>
-bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* merges,
-                     bool (*stop)(const void*), const void* stop_argument) {
+std::optional<int> average_linkage(Sum* sums, int count, int rest, LinkageWorkspace& workspace, Merge* merges,
+                                   bool (*stop)(const void*), const void* stop_argument) {
+  const auto enough = static_cast<std::uint32_t>(std::min(std::max(count - rest + 1, rest), count));
   if constexpr (sizeof(Sum) == 4) {
     if (!target_is_scalar() && count <= largest_count_of_vectors) {
-      if (stop != nullptr && stop(stop_argument)) return false;  // once: it takes less than a millisecond
-      HWY_DYNAMIC_DISPATCH(cluster)(sums, count, workspace, merges);
-      return true;
+      // Once: it takes less than a millisecond.
+      if (stop != nullptr && stop(stop_argument)) return std::nullopt;
+      return HWY_DYNAMIC_DISPATCH(cluster)(sums, count, enough, workspace, merges);
     }
   }
   const auto n = static_cast<std::size_t>(count);
@@ -333,8 +340,9 @@ bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* m
   Clusters<Sum> clusters{sums, row_length(count), workspace.slots.data(), n};
 
   std::size_t before = n;  // none
-  for (std::size_t top = 0; clusters.active > 1;) {
-    if (stop != nullptr && stop(stop_argument)) return false;
+  const Merge* const first_merge = merges;
+  for (std::size_t top = 0; clusters.slots[top].size < enough;) {
+    if (stop != nullptr && stop(stop_argument)) return std::nullopt;
     const std::size_t next = nearest(clusters, top);
     if (next != before) {
       before = top;
@@ -349,13 +357,13 @@ bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* m
     top = std::min(top, next);
     before = n;
   }
-  return true;
+  return static_cast<int>(merges - first_merge);
 }
 
-template bool average_linkage<std::uint32_t>(std::uint32_t*, int, LinkageWorkspace&, Merge*,
-                                             bool (*)(const void*), const void*);
-template bool average_linkage<std::uint64_t>(std::uint64_t*, int, LinkageWorkspace&, Merge*,
-                                             bool (*)(const void*), const void*);
+template std::optional<int> average_linkage<std::uint32_t>(std::uint32_t*, int, int, LinkageWorkspace&,
+                                                           Merge*, bool (*)(const void*), const void*);
+template std::optional<int> average_linkage<std::uint64_t>(std::uint64_t*, int, int, LinkageWorkspace&,
+                                                           Merge*, bool (*)(const void*), const void*);
 
 }  // namespace keenline::kernels
 #endif

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace keenline::kernels {
@@ -41,11 +42,16 @@ struct LinkageWorkspace {
 /// parts.
 /// \param sums  in: distances between items, sums[i * row_length(count) + j], symmetric, each <= 65520;
 ///              destroyed. Sum = std::uint32_t holds up to 512 items, std::uint64_t any number.
-/// \param merges out: count - 1 entries
-/// \param stop  asked now and then; when it answers true the function returns false and merges are incomplete
+/// \param rest  clustering ends as soon as one cluster has so many items and less are outside: no merge that
+///              is left out makes or takes in another cluster of `rest` items. 1: with all in one
+/// \param merges out: as many as returned; room for count - 1
+/// \param stop  asked now and then; when it answers true nothing is returned
+/// \return the number of merges
+/// \pre count >= 1, 1 <= rest
 template <typename Sum>
-[[nodiscard]] bool average_linkage(Sum* sums, int count, LinkageWorkspace& workspace, Merge* merges,
-                                   bool (*stop)(const void*) = nullptr, const void* stop_argument = nullptr);
+[[nodiscard]] std::optional<int> average_linkage(Sum* sums, int count, int rest, LinkageWorkspace& workspace,
+                                                 Merge* merges, bool (*stop)(const void*) = nullptr,
+                                                 const void* stop_argument = nullptr);
 
 /// Largest number of items whose sums of distances fit 32 bits: a cluster pair has at most (512 / 2)^2 =
 /// 65536 item pairs of at most 65520 units.

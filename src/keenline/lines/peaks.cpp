@@ -94,8 +94,10 @@ std::optional<GraphCorner> peak_near(const Point& place, const PointCloud& cloud
     if (next.points.size() < window_size) return std::nullopt;
     if (round > 0) weigh(next, cone);
     window = std::move(next);
-    cone = fitted_cone(window.points, window.weights, cone.apex);
-    if (!is_pointed(cone) || !is_drawable(frame.global(sum(place, cone.apex)))) return std::nullopt;
+    const std::optional<Cone> fitted = fitted_cone(window.points, window.weights, cone.apex);
+    if (!fitted || !is_pointed(*fitted)) return std::nullopt;
+    cone = *fitted;
+    if (!is_drawable(frame.global(sum(place, cone.apex)))) return std::nullopt;
   }
   const double mean_square = mean_square_off(cone, window.points, window.weights);
   if (!is_tip(cone, window, mean_square)) return std::nullopt;
