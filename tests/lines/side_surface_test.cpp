@@ -34,26 +34,26 @@ Point at(const SideSurface& frame, double x, double y, double z) {
 
 TEST(SideSurface, AQuadricIsFoundAgainInItsOwnPoints) {
   const SideSurface frame = tilted_frame();
-  std::vector<Point> offsets;
+  std::vector<Point> places;
   for (const Point& p : test::random_points(40, 1)) {
     const double x = 8 * p[0] - 4;
     const double y = 8 * p[1] - 4;
-    offsets.push_back(at(frame, x, y, height_at(x, y)));
+    places.push_back(frame.in_frame(at(frame, x, y, height_at(x, y))));
   }
-  offsets.push_back(at(frame, 1, 1, 50));
-  std::vector<double> weights(offsets.size(), 2);
+  places.push_back({1, 1, 50});
+  std::vector<double> weights(places.size(), 2);
   weights.back() = 0;
-  const auto quadric = fit_surface(frame, offsets, weights, SurfaceTerms::Quadric);
+  const auto quadric = fit_surface(frame, places, weights, SurfaceTerms::Quadric);
   ASSERT_TRUE(quadric);
   for (std::size_t i = 0; i < factors.size(); ++i) EXPECT_NEAR(quadric->height[i], factors[i], 1e-12) << i;
 }
 
 TEST(SideSurface, FewerTermsStayAtZero) {
-  std::vector<Point> offsets;
-  for (const Point& p : test::random_points(30, 2)) offsets.push_back({p[0], p[1], height_at(p[0], p[1])});
-  const std::vector<double> weights(offsets.size(), 1);
-  const auto plane = fit_surface({}, offsets, weights, SurfaceTerms::Plane);
-  const auto bent = fit_surface({}, offsets, weights, SurfaceTerms::BentAlongY);
+  std::vector<Point> places;
+  for (const Point& p : test::random_points(30, 2)) places.push_back({p[0], p[1], height_at(p[0], p[1])});
+  const std::vector<double> weights(places.size(), 1);
+  const auto plane = fit_surface({}, places, weights, SurfaceTerms::Plane);
+  const auto bent = fit_surface({}, places, weights, SurfaceTerms::BentAlongY);
   ASSERT_TRUE(plane && bent);
   EXPECT_EQ(plane->height[3], 0);
   EXPECT_NE(bent->height[3], 0);

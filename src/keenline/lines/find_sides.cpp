@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -86,12 +87,12 @@ std::optional<SideSurface> guess_at(const Patch& patch, const Point& at) {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < patch.offsets.size(); ++i) {
     const Point d = difference(patch.offsets[i], at);
-    const std::pair candidate(dot(d, d), i);
-    if (count == nearest.size() && candidate >= nearest.back()) continue;
+    const double square = dot(d, d);
+    if (count == nearest.size() && square >= nearest.back().first) continue;  // of equal ones the first
     if (count < nearest.size()) ++count;
     std::size_t to = count - 1;
-    for (; to > 0 && candidate < nearest[to - 1]; --to) nearest[to] = nearest[to - 1];
-    nearest[to] = candidate;
+    for (; to > 0 && square < nearest[to - 1].first; --to) nearest[to] = nearest[to - 1];
+    nearest[to] = {square, i};
   }
   if (count < 4) return std::nullopt;
   Point mean{};
@@ -164,12 +165,19 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// The points of a patch that could be of one side, as that side sees them.
+struct View {
+  std::vector<Point> places;     // in the frame of the side
+  std::vector<double> across;    // distance of each from the line
+  std::vector<double> to_rival;  // and from the nearest other side that it could be of
+};
+
 /// Fits the sides of a line robustly: points go to the side that they are nearest to.
 class Refinement {
  public:
   /// Points nearer to the line than `rim` say nothing of what the sides are like.
   Refinement(const Patch& patch, double rim, const std::vector<SideSurface>& sides)
-      : patch_(patch), rim_(rim), weights_(patch.offsets.size()) {
+      : patch_(patch), rim_(rim) {
     for (const SideSurface& side : sides) fits_.push_back({side, widest_tolerance, SurfaceTerms::Plane});
   }
 
@@ -180,11 +188,22 @@ class Refinement {
       for (std::size_t s = 0; s < fits_.size(); ++s)
         if (!fit_plane(s)) return {};
     }
+    std::vector<std::optional<Fit>> quadrics(fits_.size());
     std::vector<Fit> bent = fits_;
-    for (std::size_t s = 0; s < fits_.size(); ++s) bend(s, bent[s]);
+    bool are_planes = true;
+    for (std::size_t s = 0; s < fits_.size(); ++s) {
+      look(s);
+      quadrics[s] = bend(bent[s]);
+      are_planes = are_planes && bent[s].terms == SurfaceTerms::Plane;
+    }
     fits_ = bent;
     std::vector<Fit> grown = fits_;
-    for (std::size_t s = 0; s < fits_.size(); ++s) grown[s] = grown_to_line(s);
+    for (std::size_t s = 0; s < fits_.size(); ++s) {
+      look(s);
+      // Where no side has been bent the quadric would be the same again.
+      grown[s] =
+          grown_to_line(fits_[s], are_planes ? quadrics[s] : with_terms(fits_[s], SurfaceTerms::Quadric));
+    }
     fits_ = grown;
     rim_ = 0;
     std::vector<Side> result;
@@ -199,28 +218,41 @@ class Refinement {
     SurfaceTerms terms;
   };
 
-  /// Distance of point `i` from `fit`, which is or could be side `s`; nothing for points that are not of that
-  /// side, or farther from it than its tolerance.
-  [[nodiscard]] std::optional<double> residual(std::size_t s, const Fit& fit, std::size_t i) const {
-    const Point& q = patch_.offsets[i];
-    if (patch_.across[i] < rim_ || !is_inside(fit.surface, q)) return std::nullopt;
-    const double distance = fit.surface.distance(q);
-    if (std::abs(distance) >= fit.tolerance) return std::nullopt;
-    for (std::size_t other = 0; other < fits_.size(); ++other) {
-      const SideSurface& rival = fits_[other].surface;
-      if (other == s || !is_inside(rival, q)) continue;
-      if (std::abs(rival.distance(q)) < std::abs(distance)) return std::nullopt;
+  /// Takes the view of side `s`. It holds for all surfaces over its plane, until another side changes.
+  void look(std::size_t s) {
+    const SideSurface& frame = fits_[s].surface;
+    for (auto* list : {&view_.across, &view_.to_rival}) list->clear();
+    view_.places.clear();
+    for (std::size_t i = 0; i < patch_.offsets.size(); ++i) {
+      const Point& q = patch_.offsets[i];
+      if (!is_inside(frame, q)) continue;
+      double to_rival = std::numeric_limits<double>::infinity();
+      for (std::size_t other = 0; other < fits_.size(); ++other) {
+        const SideSurface& rival = fits_[other].surface;
+        if (other != s && is_inside(rival, q)) to_rival = std::min(to_rival, std::abs(rival.distance(q)));
+      }
+      view_.places.push_back(frame.in_frame(q));
+      view_.across.push_back(patch_.across[i]);
+      view_.to_rival.push_back(to_rival);
     }
+  }
+
+  /// Distance of point `i` of the view from a surface; nothing for points that are not of that side, or
+  /// farther from it than its tolerance.
+  [[nodiscard]] std::optional<double> residual(const Fit& fit, std::size_t i) const {
+    if (view_.across[i] < rim_) return std::nullopt;
+    const double distance = fit.surface.distance_in_frame(view_.places[i]);
+    if (std::abs(distance) >= fit.tolerance || view_.to_rival[i] < std::abs(distance)) return std::nullopt;
     return distance;
   }
 
   /// Weighs the points and narrows the tolerance to what their residuals justify; how many points count.
-  std::size_t weigh(std::size_t s, Fit& fit) {
+  std::size_t weigh(Fit& fit) {
     residuals_.clear();
     squares_ = 0;
+    weights_.assign(view_.places.size(), 0);
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const std::optional<double> r = residual(s, fit, i);
-      weights_[i] = 0;
+      const std::optional<double> r = residual(fit, i);
       if (!r) continue;
       const double part = *r / fit.tolerance;
       weights_[i] = (1 - part * part) * (1 - part * part);
@@ -236,9 +268,10 @@ class Refinement {
   }
 
   bool fit_plane(std::size_t s) {
+    look(s);
     Fit& plane = fits_[s];
-    if (weigh(s, plane) < fewest_points) return false;
-    const auto tilted = fit_surface(plane.surface, patch_.offsets, weights_, SurfaceTerms::Plane);
+    if (weigh(plane) < fewest_points) return false;
+    const auto tilted = fit_surface(plane.surface, view_.places, weights_, SurfaceTerms::Plane);
     if (!tilted) return false;
     const Point normal = tilted->normal({});
     if (std::abs(dot(normal, patch_.along)) > largest_slope_along) return false;
@@ -247,43 +280,46 @@ class Refinement {
     return true;
   }
 
-  bool fit(std::size_t s, Fit& surface) {
-    if (weigh(s, surface) < fewest_points) return false;
-    const auto fitted = fit_surface(fits_[s].surface, patch_.offsets, weights_, surface.terms);
+  bool fit(Fit& surface) {
+    if (weigh(surface) < fewest_points) return false;
+    const auto fitted = fit_surface(surface.surface, view_.places, weights_, surface.terms);
     if (fitted) surface.surface = *fitted;
     return fitted.has_value();
   }
 
-  /// Gives `bent`, which is the plane of side `s`, the curvature that its points ask for.
-  void bend(std::size_t s, Fit& bent) {
+  /// Gives the plane of the side in view the curvature that its points ask for. Returns the quadric.
+  std::optional<Fit> bend(Fit& bent) {
+    const Fit plane = bent;
+    std::optional<Fit> candidate;
     for (const SurfaceTerms terms : {SurfaceTerms::BentAlongY, SurfaceTerms::Quadric}) {
-      const std::optional<Fit> candidate = with_terms(s, terms);
-      if (candidate && gain(s, *candidate, bent, fits_[s]) > worth_of_bending) bent = *candidate;
+      candidate = with_terms(plane, terms);
+      if (candidate && gain(*candidate, bent, plane) > worth_of_bending) bent = *candidate;
     }
+    return candidate;
   }
 
-  std::optional<Fit> with_terms(std::size_t s, SurfaceTerms terms) {
-    Fit candidate{fits_[s].surface, widest_tolerance, terms};
+  std::optional<Fit> with_terms(const Fit& side, SurfaceTerms terms) {
+    Fit candidate{side.surface, widest_tolerance, terms};
     constexpr int rounds = 6;
     for (int round = 0; round < rounds; ++round)
-      if (!fit(s, candidate)) return std::nullopt;
+      if (!fit(candidate)) return std::nullopt;
     if (!is_smooth(candidate.surface)) return std::nullopt;
     return candidate;
   }
 
-  /// Side `s` with the points nearer to the line that lie on it: as near as they come they keep it from
-  /// swaying there. If it takes a quadric to reach them, a quadric it is; what is rounded no quadric follows.
-  Fit grown_to_line(std::size_t s) {
+  /// The side in view with the points nearer to the line that lie on it: as near as they come they keep it
+  /// from swaying there. If it takes a quadric to reach them, a quadric it is; what is rounded no quadric
+  /// follows.
+  Fit grown_to_line(const Fit& side, std::optional<Fit> quadric) {
     const double rim = rim_;
-    std::optional<Fit> quadric = with_terms(s, SurfaceTerms::Quadric);
-    if (quadric && gain(s, *quadric, fits_[s], *quadric) < hint_of_bending) quadric.reset();
-    Fit grown = fits_[s];
+    if (quadric && gain(*quadric, side, *quadric) < hint_of_bending) quadric.reset();
+    Fit grown = side;
     for (const double part : {0.6, 0.3, 0.0}) {
       rim_ = part * rim;
-      fit(s, grown);
-      if (quadric && !fit(s, *quadric)) quadric.reset();
+      fit(grown);
+      if (quadric && !fit(*quadric)) quadric.reset();
     }
-    if (quadric && is_smooth(quadric->surface) && gain(s, *quadric, grown, *quadric) > worth_of_bending)
+    if (quadric && is_smooth(quadric->surface) && gain(*quadric, grown, *quadric) > worth_of_bending)
       grown = *quadric;
     rim_ = rim;
     return grown;
@@ -296,13 +332,13 @@ class Refinement {
 
   /// Does a surface with more terms explain the points of `asked` significantly better than one with fewer?
   /// Other points must not be asked: a third face near a corner is easily had by bending.
-  double gain(std::size_t s, const Fit& more, const Fit& fewer, const Fit& asked) {
+  double gain(const Fit& more, const Fit& fewer, const Fit& asked) {
     std::vector<std::pair<double, double>> squares;
     residuals_.clear();
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-      if (!residual(s, asked, i)) continue;
-      const double of_more = more.surface.distance(patch_.offsets[i]);
-      const double of_fewer = fewer.surface.distance(patch_.offsets[i]);
+    for (std::size_t i = 0; i < view_.places.size(); ++i) {
+      if (!residual(asked, i)) continue;
+      const double of_more = more.surface.distance_in_frame(view_.places[i]);
+      const double of_fewer = fewer.surface.distance_in_frame(view_.places[i]);
       squares.emplace_back(of_more * of_more, of_fewer * of_fewer);
       residuals_.push_back(std::abs(of_more));
     }
@@ -320,8 +356,9 @@ class Refinement {
   }
 
   Side side(std::size_t s) {
+    look(s);
     Side result{.surface = fits_[s].surface, .inward = fits_[s].surface.x};
-    result.support = weigh(s, fits_[s]);
+    result.support = weigh(fits_[s]);
     if (result.support > 0)
       result.residual = patch_.spacing * std::sqrt(squares_ / static_cast<double>(result.support));
     return result;
@@ -330,7 +367,8 @@ class Refinement {
   const Patch& patch_;
   double rim_;
   std::vector<Fit> fits_;
-  std::vector<double> weights_;  // of the points of the patch
+  View view_;
+  std::vector<double> weights_;  // of the points in view
   std::vector<double> residuals_;
   double squares_ = 0;  // sum of those of the residuals
 };

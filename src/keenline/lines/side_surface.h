@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "keenline/cloud.h"
+#include "keenline/vectors.h"
 
 namespace keenline {
 
@@ -25,15 +27,39 @@ struct SideSurface {
     return std::all_of(height.begin() + 1, height.end(), [](double factor) { return factor == 0; });
   }
   [[nodiscard]] Point offset_of(const Point& position) const;
+  /// The offset by its coordinates along x, y and z.
+  [[nodiscard]] Point in_frame(const Point& offset) const {
+    return {dot(offset, x), dot(offset, y), dot(offset, z)};
+  }
 
   /// By how much the offset lies above the surface, along z.
-  [[nodiscard]] double above(const Point& offset) const;
+  [[nodiscard]] double above(const Point& offset) const { return above_in_frame(in_frame(offset)); }
   /// Unit normal, on the side of z, where the surface is above or below the offset.
   [[nodiscard]] Point normal(const Point& offset) const;
   /// To first order, in spacings; positive on the side of z.
-  [[nodiscard]] double distance(const Point& offset) const;
+  [[nodiscard]] double distance(const Point& offset) const { return distance_in_frame(in_frame(offset)); }
+  /// The same of a place that is in_frame().
+  [[nodiscard]] double distance_in_frame(const Point& place) const {
+    if (is_plane()) return place[2] - height[0];  // most surfaces, and what most time is spent on
+    const auto [along_x, along_y] = slopes_in_frame(place);
+    return above_in_frame(place) / std::sqrt(1 + along_x * along_x + along_y * along_y);
+  }
   /// By how much the surface rises along x and y, where it is above or below the offset.
-  [[nodiscard]] std::array<double, 2> slopes(const Point& offset) const;
+  [[nodiscard]] std::array<double, 2> slopes(const Point& offset) const {
+    return slopes_in_frame(in_frame(offset));
+  }
+
+ private:
+  [[nodiscard]] double above_in_frame(const Point& place) const {
+    if (is_plane()) return place[2] - height[0];
+    const auto [u, v, w] = place;
+    return w - height[0] - height[1] * u - height[2] * v - height[3] * (v * v) - height[4] * (u * v) -
+           height[5] * (u * u);
+  }
+  [[nodiscard]] std::array<double, 2> slopes_in_frame(const Point& place) const {
+    const auto [u, v, w] = place;
+    return {height[1] + height[4] * v + 2 * height[5] * u, height[2] + 2 * height[3] * v + height[4] * u};
+  }
 };
 
 /// Which of the factors may differ from 0: so many from the first.
@@ -41,8 +67,9 @@ enum class SurfaceTerms : std::uint8_t { Plane = 3, BentAlongY = 4, Quadric = 6 
 
 /// The polynomial over the plane of `frame` that fits best: least weighted sum of squared heights. None
 /// where the points do not determine it.
-/// \pre as many weights as offsets
-[[nodiscard]] std::optional<SideSurface> fit_surface(const SideSurface& frame, std::span<const Point> offsets,
+/// \param places of the points, in_frame()
+/// \pre as many weights as places
+[[nodiscard]] std::optional<SideSurface> fit_surface(const SideSurface& frame, std::span<const Point> places,
                                                      std::span<const double> weights, SurfaceTerms terms);
 
 }  // namespace keenline

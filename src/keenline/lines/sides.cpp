@@ -15,7 +15,7 @@
 namespace keenline {
 namespace {
 
-/// Where a vertex looks for its sides: not beside the corners of its line.
+/// Where on its line a vertex looks for its sides: not beside the corners.
 double away_from_corners(double place, const Polyline& line, double total, double margin) {
   margin = std::min(margin, 0.5 * total);
   if (line.start_corner) place = std::max(place, margin);
@@ -86,16 +86,20 @@ std::vector<std::optional<LineSides>> sides_along(const Polyline& line, const Po
   const ArcLength arc(line);
   const std::size_t count = line.vertices.size();
   std::vector<std::optional<LineSides>> found(count);
-  const auto sides_near = [&](double place, double margin) {
-    place = away_from_corners(place, line, arc.total(), margin * spacing);
+  const auto sides_at = [&](double place) {
     const Point direction = arc.direction(place, 1.5 * options.stretch * spacing);
     return find_sides(cloud, search, arc.point(place), direction, line.kind, spacing, options);
   };
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     progress.check();
-    found[i] = sides_near(arc.at(i), options.reach);
-    if (line.kind == LineKind::Crease && found[i] && is_bent(*found[i]))
-      found[i] = sides_near(arc.at(i), options.stretch);
+    const auto place_for = [&](double margin) {
+      return away_from_corners(arc.at(i), line, arc.total(), margin * spacing);
+    };
+    const double place = place_for(options.reach);
+    found[i] = sides_at(place);
+    const double nearer = place_for(options.stretch);
+    if (nearer != place && line.kind == LineKind::Crease && found[i] && is_bent(*found[i]))
+      found[i] = sides_at(nearer);
     progress.advance(1);
   });
   const std::vector<std::size_t> nearest = nearest_known(arc, line.closed, options.reach * spacing, found);
