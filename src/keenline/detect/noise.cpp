@@ -14,6 +14,7 @@
 #include "keenline/detect/gauss_map.h"
 #include "keenline/kernels/line_angles.h"
 #include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/order_statistics.h"
 
 namespace keenline {
 namespace {
@@ -62,10 +63,9 @@ double estimate_noise(const PointCloud& cloud, const NeighborSearch& search, Pro
                     });
   scatters.erase(std::remove(scatters.begin(), scatters.end(), no_lines), scatters.end());
   if (scatters.empty()) return 0;
-  const auto quartile = scatters.begin() + static_cast<std::ptrdiff_t>((scatters.size() - 1) / 4);
-  std::nth_element(scatters.begin(), quartile, scatters.end());
+  const double quartile = nth_smallest(scatters, (scatters.size() - 1) / 4);
   // Measured: quartile = 14.4 noise / (1 + 0.54 noise).
-  return *quartile / std::max(14.4 - 0.54 * *quartile, 1.0);
+  return quartile / std::max(14.4 - 0.54 * quartile, 1.0);
 }
 
 }  // namespace keenline

@@ -18,6 +18,7 @@
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/order_statistics.h"
 #include "keenline/require.h"
 #include "keenline/vectors.h"
 
@@ -176,10 +177,9 @@ class Detector {
     constexpr double lowest = 0.01;
     constexpr double highest = 0.08;
     if (means.empty()) return lowest;
-    const auto fifth = means.begin() + static_cast<std::ptrdiff_t>(means.size() * 4 / 5);
-    std::nth_element(means.begin(), fifth, means.end());
+    const auto fifth = static_cast<double>(nth_smallest(means, means.size() * 4 / 5));
     constexpr double below = 0.6;
-    return std::clamp(below * static_cast<double>(*fifth), lowest, highest);
+    return std::clamp(below * fifth, lowest, highest);
   }
 
   /// Share of its scales that speak for the point.

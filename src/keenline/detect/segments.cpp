@@ -13,6 +13,7 @@
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/order_statistics.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -75,9 +76,7 @@ class Segmentation {
   [[nodiscard]] double usual_angle_deg() const {
     if (result_.bend_deg.empty()) return 5;
     std::vector<float> bends = result_.bend_deg;
-    const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-    std::nth_element(bends.begin(), middle, bends.end());
-    return std::clamp<double>(3 * static_cast<double>(*middle), 5, 10);
+    return std::clamp<double>(3 * static_cast<double>(median(bends)), 5, 10);
   }
 
   void grow_regions() {

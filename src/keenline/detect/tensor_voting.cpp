@@ -13,6 +13,7 @@
 #include "keenline/kernels/tensor_votes.h"
 #include "keenline/memory.h"
 #include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/order_statistics.h"
 #include "keenline/require.h"
 
 namespace keenline {
@@ -78,10 +79,7 @@ double fewest_votes(std::span<const Election> elections) {
   std::vector<double> votes;
   for (const Election& election : elections)
     if (election.votes >= 0) votes.push_back(election.votes);
-  if (votes.empty()) return 0;
-  const auto middle = votes.begin() + static_cast<std::ptrdiff_t>(votes.size() / 2);
-  std::nth_element(votes.begin(), middle, votes.end());
-  return 0.1 * *middle;
+  return votes.empty() ? 0 : 0.1 * median(votes);
 }
 
 Kind kind_of(const Election& election, double fewest, double min_curve, double min_junction) {

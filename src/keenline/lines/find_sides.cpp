@@ -10,6 +10,7 @@
 
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/lines/rim.h"
+#include "keenline/order_statistics.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -157,12 +158,6 @@ std::vector<SideSurface> guess_sides(const Patch& patch, std::span<const std::ui
     other = best;
   }
   return sides;
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The points of a patch that could be of one side, as that side sees them.

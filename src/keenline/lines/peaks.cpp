@@ -12,6 +12,7 @@
 #include "keenline/detect/cone.h"
 #include "keenline/kernels/portable_math.h"
 #include "keenline/lines/foot_grid.h"
+#include "keenline/order_statistics.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -58,9 +59,7 @@ void weigh(Window& window, const Cone& cone) {
     misses.push_back(std::abs(length(u) - dot(u, cone.slope)) / steepness);
   }
   std::vector<double> sorted = misses;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = cut * std::max(to_deviation * *middle, least_deviation);
+  const double limit = cut * std::max(to_deviation * median(sorted), least_deviation);
   for (std::size_t i = 0; i < misses.size(); ++i) {
     const double r = misses[i] / limit;
     window.weights[i] = r < 1 ? (1 - r * r) * (1 - r * r) : 0;

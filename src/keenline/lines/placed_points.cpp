@@ -6,6 +6,7 @@
 
 #include "keenline/feature_graph.h"
 #include "keenline/neighborhood/neighbor_search.h"
+#include "keenline/order_statistics.h"
 
 namespace keenline {
 namespace {
@@ -14,16 +15,14 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// \pre there are points
 Point median_of(const std::vector<Point>& positions, const std::vector<std::uint32_t>& points) {
-  Point median{};
+  Point middle{};
   std::vector<double> coordinates(points.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::transform(points.begin(), points.end(), coordinates.begin(),
                    [&](std::uint32_t point) { return positions[point][axis]; });
-    const auto middle = coordinates.begin() + static_cast<std::ptrdiff_t>((coordinates.size() - 1) / 2);
-    std::nth_element(coordinates.begin(), middle, coordinates.end());
-    median[axis] = *middle;
+    middle[axis] = lower_median(coordinates);
   }
-  return median;
+  return middle;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "keenline/kernels/symmetric3.h"
+#include "keenline/order_statistics.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -135,9 +136,7 @@ class Straightener {
   [[nodiscard]] double usual_uncertainty(const Stretch& stretch) const {
     std::vector<double> values(uncertainty_.begin() + static_cast<std::ptrdiff_t>(stretch.first),
                                uncertainty_.begin() + static_cast<std::ptrdiff_t>(stretch.last + 1));
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return lower_median(values);
   }
 
   [[nodiscard]] StraightLine best_line(const Stretch& stretch) const {

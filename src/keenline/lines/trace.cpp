@@ -20,6 +20,7 @@
 #include "keenline/lines/rim_tracker.h"
 #include "keenline/lines/walk.h"
 #include "keenline/lines/wedge.h"
+#include "keenline/order_statistics.h"
 
 namespace keenline {
 namespace {
@@ -45,10 +46,7 @@ double median_quality(const std::vector<Foot>& feet) {
   std::vector<double> qualities;
   qualities.reserve(feet.size());
   for (const Foot& foot : feet) qualities.push_back(foot.quality);
-  if (qualities.empty()) return 0;
-  const auto middle = qualities.begin() + static_cast<std::ptrdiff_t>(qualities.size() / 2);
-  std::nth_element(qualities.begin(), middle, qualities.end());
-  return *middle;
+  return qualities.empty() ? 0 : median(qualities);
 }
 
 std::vector<Foot> better_than(double least, const std::vector<Foot>& feet) {
@@ -86,12 +84,10 @@ std::vector<std::uint32_t> points_beside_bends(const std::vector<Path>& paths, c
 /// \pre !points.empty()
 Point middle_of(const PointCloud& cloud, const std::vector<std::uint32_t>& points) {
   std::vector<double> values(points.size());
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   Point middle{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < points.size(); ++i) values[i] = cloud.positions[points[i]][axis];
-    std::nth_element(values.begin(), half, values.end());
-    middle[axis] = *half;
+    middle[axis] = median(values);
   }
   return middle;
 }

@@ -6,6 +6,8 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
+#include "keenline/order_statistics.h"
+
 namespace keenline {
 namespace {
 
@@ -28,9 +30,7 @@ int median_exponent(const std::vector<Point>& positions) {
     if (distance > 0) magnitudes.push_back(distance);
   }
   if (magnitudes.empty()) return 0;
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  return std::ilogb(*middle) + 1;
+  return std::ilogb(median(magnitudes)) + 1;
 }
 
 /// Of the absolute values of all finite points' coordinates that are not 0.

@@ -13,6 +13,7 @@
 #include "keenline/neighborhood/local_offsets.h"
 #include "keenline/neighborhood/neighbor_search.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/order_statistics.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -22,15 +23,6 @@ constexpr int nearest = 16;
 
 /// Says that a point does not count.
 constexpr double none = -1;
-
-/// Of all values but `none`; 0 when there are no others.
-double lower_median(std::vector<double> values) {
-  values.erase(std::remove(values.begin(), values.end(), none), values.end());
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -66,7 +58,8 @@ double estimate_spacing(const PointCloud& cloud, const NeighborSearch& search) {
                         }
                       });
   }
-  return lower_median(std::move(spacings));
+  std::erase(spacings, none);
+  return spacings.empty() ? 0 : lower_median(spacings);
 }
 
 }  // namespace keenline

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "keenline/order_statistics.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -23,13 +24,6 @@ double squared_distance(const Box& a, const Box& b) {
 double squared_distance(const Point& a, const Point& b) {
   const Point d = difference(a, b);
   return dot(d, d);
-}
-
-template <typename T>
-T nth_smallest(std::vector<T>& values, std::size_t n) {
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/labels.h"
 #include "keenline/neighborhood/neighborhoods.h"
+#include "keenline/order_statistics.h"
 #include "keenline/report/legend.h"
 #include "keenline/report/splats.h"
 #include "keenline/vectors.h"
@@ -230,10 +231,7 @@ double median_radius(std::span<const Disc> discs) {
   std::vector<double> radii;
   for (const Disc& disc : discs)
     if (disc.radius > 0) radii.push_back(disc.radius);
-  if (radii.empty()) return 0;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle;
+  return radii.empty() ? 0 : median(radii);
 }
 
 /// Appends the lines and corners of the graph as rows of balls. `place` puts a position into the picture.
