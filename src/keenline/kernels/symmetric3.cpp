@@ -10,9 +10,9 @@ namespace {
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 /// Turns the plane of axes p and q so that a[p][q] becomes 0 (Golub & Van Loan, Matrix Computations, 8.5.2),
-/// and the columns of v with it.
-void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
-  if (a[p][q] == 0) return;
+/// and the columns of v with it; unless it is as good as 0.
+void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q, double negligible) {
+  if (std::abs(a[p][q]) <= negligible) return;
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
   const double t = (theta >= 0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(1 + theta * theta));
   const double c = 1 / std::sqrt(1 + t * t);
@@ -43,12 +43,20 @@ Eigen3 eigen_decomposition(const Symmetric3& matrix) {
             {matrix.xy, matrix.yy, matrix.yz},
             {matrix.xz, matrix.yz, matrix.zz}}};
   Matrix v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  // Far below the last place of the largest entry. Nothing less than that would be reached: what is 0 does
+  // not stay it when the next plane is turned.
+  const double negligible =
+      0x1p-60 * std::max({std::abs(matrix.xx), std::abs(matrix.yy), std::abs(matrix.zz), std::abs(matrix.xy),
+                          std::abs(matrix.xz), std::abs(matrix.yz)});
+  const auto is_diagonal = [&] {
+    return std::max({std::abs(a[0][1]), std::abs(a[0][2]), std::abs(a[1][2])}) <= negligible;
+  };
   // Convergence is quadratic: a 3 x 3 matrix is diagonal to double precision after five sweeps at most; eight
   // are safe.
-  for (int sweep = 0; sweep < 8 && (a[0][1] != 0 || a[0][2] != 0 || a[1][2] != 0); ++sweep) {
-    rotate(a, v, 0, 1);
-    rotate(a, v, 0, 2);
-    rotate(a, v, 1, 2);
+  for (int sweep = 0; sweep < 8 && !is_diagonal(); ++sweep) {
+    rotate(a, v, 0, 1, negligible);
+    rotate(a, v, 0, 2, negligible);
+    rotate(a, v, 1, 2, negligible);
   }
   std::array<std::size_t, 3> order{0, 1, 2};
   std::stable_sort(order.begin(), order.end(),
