@@ -28,7 +28,7 @@ std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
     std::size_t best_b = 0;
     std::uint64_t best_sum = 0;
     std::uint64_t best_pairs = 0;
-    for (std::size_t a = 0; a < clusters.size(); ++a)
+    for (std::size_t a = 0; a < clusters.size(); ++a) {
       for (std::size_t b = a + 1; b < clusters.size(); ++b) {
         std::uint64_t sum = 0;
         for (const std::uint32_t i : clusters[a])
@@ -37,6 +37,7 @@ std::vector<Merge> by_definition(const Matrix& distances, std::size_t n) {
         if (best_pairs != 0 && sum * best_pairs >= best_sum * pairs) continue;
         std::tie(best_a, best_b, best_sum, best_pairs) = std::tuple(a, b, sum, pairs);
       }
+    }
     auto& first = clusters[best_a];
     auto& second = clusters[best_b];
     merges.push_back({first.front(), second.front(), static_cast<std::uint32_t>(first.size()),
@@ -114,7 +115,7 @@ TEST(AverageLinkage, EqualsTheDefinitionOnRandomDistances) {
 }
 
 TEST(AverageLinkage, EqualsTheDefinitionWhereMostDistancesAreTies) {
-  for (const std::uint32_t levels : {1U, 2U, 3U, 5U})
+  for (const std::uint32_t levels : {1U, 2U, 3U, 5U}) {
     for (unsigned seed = 0; seed < 25; ++seed) {
       const std::size_t n = 3 + seed;
       const Matrix distances = random_matrix(n, levels, seed);
@@ -124,6 +125,7 @@ TEST(AverageLinkage, EqualsTheDefinitionWhereMostDistancesAreTies) {
             << levels << " levels, seed " << seed;
       });
     }
+  }
 }
 
 TEST(AverageLinkage, HoldsTheLargestSums) {

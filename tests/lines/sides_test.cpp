@@ -94,6 +94,35 @@ TEST(Sides, VerticesWithoutSidesHaveThoseOfTheNearestOne) {
   EXPECT_EQ(described.dihedral_deg[3], described.dihedral_deg[1]);
 }
 
+TEST(Sides, AreNotSoughtAgainWhereTheLineHasStayed) {
+  const LineScene scene(shape_options("crease", 4000));
+  const double h = scene.spacing;
+  Polyline line;
+  for (int i = -5; i <= 5; ++i) line.vertices.push_back({0, 2 * i * h, 0});
+  KnownSides known;
+  const auto look = [&](const NeighborSearch& search, KnownSides* before) {
+    return sides_along(line, scene.synth.cloud, search, h, {}, no_progress(), before);
+  };
+  const auto normals = [](const std::vector<std::optional<LineSides>>& sides) {
+    std::vector<Point> all;
+    for (const auto& side : sides) {
+      all.push_back(side.value().left.surface.normal({}));
+      all.push_back(side.value().right.surface.normal({}));
+    }
+    return all;
+  };
+  const auto fresh = normals(look(scene.search, nullptr));
+  EXPECT_EQ(normals(look(scene.search, &known)), fresh);
+  const std::vector<Point> nowhere;
+  const NeighborSearch blind(nowhere);
+  EXPECT_EQ(normals(look(blind, &known)), fresh);  // and goes on knowing them
+
+  line.vertices[5] = {0.2 * h, 0, 0.1 * h};
+  const auto moved = normals(look(scene.search, nullptr));
+  EXPECT_NE(moved, fresh);
+  EXPECT_EQ(normals(look(scene.search, &known)), moved);
+}
+
 TEST(Sides, WhereNothingIsKnownNothingIsSaid) {
   const LineScene scene(shape_options("sphere", 2000));
   FeatureGraph graph;

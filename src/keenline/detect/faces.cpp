@@ -195,7 +195,8 @@ bool lone_face_is_half(const GaussMap& map) {
   // the 47 that half_cosine asks for.
   const kernels::Lines lines = map.lines();
   Directions room;
-  const Point line{lines.x[0], lines.y[0], lines.z[0]};
+  const Point line{static_cast<double>(lines.x[0]), static_cast<double>(lines.y[0]),
+                   static_cast<double>(lines.z[0])};
   const auto sectors = directions_on_plane(map, line, least_tolerance_deg - 7, room);
   if (!may_leave_wide_sector(sectors)) return false;
   Face face{map.common_direction(), 0};

@@ -80,28 +80,59 @@ double dihedral_deg(const LineSides& sides, const SideNormals& normals) {
 
 }  // namespace
 
+const std::optional<LineSides>* KnownSides::at(const Point& position, const Point& direction) const {
+  const auto found = sides_.find({position, direction});
+  return found == sides_.end() ? nullptr : &found->second;
+}
+
+void KnownSides::add(const Point& position, const Point& direction, const std::optional<LineSides>& sides) {
+  sides_.emplace(std::pair(position, direction), sides);
+}
+
 std::vector<std::optional<LineSides>> sides_along(const Polyline& line, const PointCloud& cloud,
                                                   const NeighborSearch& search, double spacing,
-                                                  const SidesOptions& options, Progress& progress) {
+                                                  const SidesOptions& options, Progress& progress,
+                                                  KnownSides* known) {
   const ArcLength arc(line);
   const std::size_t count = line.vertices.size();
   std::vector<std::optional<LineSides>> found(count);
-  const auto sides_at = [&](double place) {
-    const Point direction = arc.direction(place, 1.5 * options.stretch * spacing);
-    return find_sides(cloud, search, arc.point(place), direction, line.kind, spacing, options);
+  struct Look {
+    Point position;
+    Point direction;
+    std::optional<LineSides> sides;
   };
+  const auto look_at = [&](double place) {
+    Look look{arc.point(place), arc.direction(place, 1.5 * options.stretch * spacing), {}};
+    const auto* const before = known != nullptr ? known->at(look.position, look.direction) : nullptr;
+    look.sides = before != nullptr
+                     ? *before
+                     : find_sides(cloud, search, look.position, look.direction, line.kind, spacing, options);
+    return look;
+  };
+  std::vector<Look> looks(count);
+  std::vector<std::optional<Look>> nearer_looks(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     progress.check();
     const auto place_for = [&](double margin) {
       return away_from_corners(arc.at(i), line, arc.total(), margin * spacing);
     };
     const double place = place_for(options.reach);
-    found[i] = sides_at(place);
+    looks[i] = look_at(place);
+    found[i] = looks[i].sides;
     const double nearer = place_for(options.stretch);
-    if (nearer != place && line.kind == LineKind::Crease && found[i] && is_bent(*found[i]))
-      found[i] = sides_at(nearer);
+    if (nearer != place && line.kind == LineKind::Crease && found[i] && is_bent(*found[i])) {
+      nearer_looks[i] = look_at(nearer);
+      found[i] = nearer_looks[i]->sides;
+    }
     progress.advance(1);
   });
+  if (known != nullptr) {
+    *known = {};
+    const auto keep = [&](const Look& look) { known->add(look.position, look.direction, look.sides); };
+    for (const Look& look : looks) keep(look);
+    for (const std::optional<Look>& look : nearer_looks)
+      if (look) keep(*look);
+  }
   const std::vector<std::size_t> nearest = nearest_known(arc, line.closed, options.reach * spacing, found);
   std::vector<std::optional<LineSides>> sides(count);
   for (std::size_t i = 0; i < count; ++i)

@@ -99,6 +99,7 @@ struct Moved {
   Polyline line;
   std::vector<Point> traced;  // where its vertices were at first
   Sides sides;
+  KnownSides known;
 };
 
 /// Numbers of the vertices that lie ahead of the ones before them. Of two in the wrong order the one goes
@@ -142,7 +143,7 @@ class Snapping {
         spacing_(spacing),
         options_(options),
         progress_(progress) {
-    for (const Polyline& line : graph.polylines) lines_.push_back({line, line.vertices, {}});
+    for (const Polyline& line : graph.polylines) lines_.push_back({line, line.vertices, {}, {}});
   }
 
   FeatureGraph run() {
@@ -151,7 +152,9 @@ class Snapping {
       for (const Moved& moved : lines_) vertices += moved.line.vertices.size();
       progress_.begin("snapping", vertices);
       tbb::parallel_for(std::size_t{0}, lines_.size(), [&](std::size_t i) {
-        lines_[i].sides = sides_along(lines_[i].line, cloud_, search_, spacing_, options_.sides, progress_);
+        Moved& moved = lines_[i];
+        moved.sides =
+            sides_along(moved.line, cloud_, search_, spacing_, options_.sides, progress_, &moved.known);
       });
       move_corners();
       tbb::parallel_for(std::size_t{0}, lines_.size(), [&](std::size_t i) { move(lines_[i]); });

@@ -26,7 +26,7 @@ struct SnapOptions {
 /// dihedral angles, normals and residuals: of a vertex how far the points are from their sides (root mean
 /// square, the larger of the two), or the vertex itself, if that is farther; of a corner the root mean
 /// square of its distances from the sides. Curves that were fitted to the lines are dropped.
-/// Threads: any number, same bits. Cost: about 0.3 ms per vertex, round and core.
+/// Threads: any number, same bits. Cost: about 0.2 ms per vertex, round and core.
 /// \pre the search is of this cloud
 /// \throw InvalidArgument for an invalid graph, or unless spacing > 0 and finite and the options are in
 /// range; Cancelled.
