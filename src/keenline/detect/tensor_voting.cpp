@@ -1,6 +1,5 @@
 #include "keenline/detect/tensor_voting.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "keenline/lines/side_surface.h"
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -9,13 +8,6 @@
 #include "keenline/vectors.h"
 
 namespace keenline {
-namespace {
-
-using Terms = std::array<double, 6>;
-
-Terms terms_at(double x, double y) { return {1, x, y, y * y, x * y, x * x}; }
-
-}  // namespace
 
 Point SideSurface::offset_of(const Point& position) const {
   return scaled(1 / spacing, difference(position, origin));
@@ -32,7 +24,7 @@ std::optional<SideSurface> fit_surface(const SideSurface& frame, std::span<const
   BandLeastSquares equations(size, size);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (weights[p] == 0) continue;
-    const Terms monomials = terms_at(places[p][0], places[p][1]);
+    const std::array<double, 6> monomials = SideSurface::terms_at(places[p][0], places[p][1]);
     const Point height{0, 0, places[p][2]};
     equations.add(0, std::span(monomials).first(size), height, weights[p]);
   }

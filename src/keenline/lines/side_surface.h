@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,6 +27,10 @@ struct SideSurface {
   [[nodiscard]] bool is_plane() const {
     return std::all_of(height.begin() + 1, height.end(), [](double factor) { return factor == 0; });
   }
+  /// What the factors multiply.
+  [[nodiscard]] static std::array<double, 6> terms_at(double x, double y) {
+    return {1, x, y, y * y, x * y, x * x};
+  }
   [[nodiscard]] Point offset_of(const Point& position) const;
   /// The offset by its coordinates along x, y and z.
   [[nodiscard]] Point in_frame(const Point& offset) const {
@@ -33,14 +38,17 @@ struct SideSurface {
   }
 
   /// By how much the offset lies above the surface, along z.
-  [[nodiscard]] double above(const Point& offset) const { return above_in_frame(in_frame(offset)); }
+  [[nodiscard]] double above(const Point& offset) const {
+    if (is_plane()) return dot(offset, z) - height[0];  // most surfaces, and what most time is spent on
+    return above_in_frame(in_frame(offset));
+  }
   /// Unit normal, on the side of z, where the surface is above or below the offset.
   [[nodiscard]] Point normal(const Point& offset) const;
   /// To first order, in spacings; positive on the side of z.
   [[nodiscard]] double distance(const Point& offset) const { return distance_in_frame(in_frame(offset)); }
   /// The same of a place that is in_frame().
   [[nodiscard]] double distance_in_frame(const Point& place) const {
-    if (is_plane()) return place[2] - height[0];  // most surfaces, and what most time is spent on
+    if (is_plane()) return place[2] - height[0];
     const auto [along_x, along_y] = slopes_in_frame(place);
     return above_in_frame(place) / std::sqrt(1 + along_x * along_x + along_y * along_y);
   }
@@ -51,10 +59,10 @@ struct SideSurface {
 
  private:
   [[nodiscard]] double above_in_frame(const Point& place) const {
-    if (is_plane()) return place[2] - height[0];
-    const auto [u, v, w] = place;
-    return w - height[0] - height[1] * u - height[2] * v - height[3] * (v * v) - height[4] * (u * v) -
-           height[5] * (u * u);
+    const std::array<double, 6> terms = terms_at(place[0], place[1]);
+    double above = place[2];
+    for (std::size_t i = 0; i < terms.size(); ++i) above -= height[i] * terms[i];
+    return above;
   }
   [[nodiscard]] std::array<double, 2> slopes_in_frame(const Point& place) const {
     const auto [u, v, w] = place;

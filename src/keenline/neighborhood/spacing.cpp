@@ -1,6 +1,5 @@
 #include "keenline/neighborhood/spacing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
