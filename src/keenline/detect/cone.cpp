@@ -26,20 +26,23 @@ void add_equation(Matrix6& matrix, Vector6& right, const Vector6& row, double va
 
 /// By Cholesky decomposition; empty where the matrix is not positive definite.
 std::optional<Vector6> solution(Matrix6 matrix, Vector6 x) {
+  Vector6 inverse;  // of the diagonal: one division for a row of quotients
   for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
+    for (std::size_t j = 0; j < i; ++j) {
       double sum = matrix[i][j];
       for (std::size_t k = 0; k < j; ++k) sum -= matrix[i][k] * matrix[j][k];
-      if (i != j) matrix[i][j] = sum / matrix[j][j];
-      else if (sum > 0) matrix[i][i] = std::sqrt(sum);
-      else return std::nullopt;
+      matrix[i][j] = sum * inverse[j];
     }
+    double square = matrix[i][i];
+    for (std::size_t k = 0; k < i; ++k) square -= matrix[i][k] * matrix[i][k];
+    if (!(square > 0)) return std::nullopt;
+    inverse[i] = 1 / std::sqrt(square);
     for (std::size_t k = 0; k < i; ++k) x[i] -= matrix[i][k] * x[k];
-    x[i] /= matrix[i][i];
+    x[i] *= inverse[i];
   }
   for (std::size_t i = 6; i-- > 0;) {
     for (std::size_t k = i + 1; k < 6; ++k) x[i] -= matrix[k][i] * x[k];
-    x[i] /= matrix[i][i];
+    x[i] *= inverse[i];
   }
   return x;
 }
@@ -55,11 +58,14 @@ double misfit(const Cone& cone, std::span<const Point> points, std::span<const d
   return sum;
 }
 
-/// One step of Gauss and Newton, damped; the cone itself where the equations have no solution.
-Cone improved(const Cone& cone, std::span<const Point> points, std::span<const double> weights,
-              double damping) {
+/// The equations of a step of Gauss and Newton.
+struct Equations {
   Matrix6 matrix{};
   Vector6 right{};
+};
+
+Equations equations_at(const Cone& cone, std::span<const Point> points, std::span<const double> weights) {
+  Equations equations;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point u = difference(points[i], cone.apex);
     const double distance = length(u);
@@ -69,11 +75,16 @@ Cone improved(const Cone& cone, std::span<const Point> points, std::span<const d
       row[axis] = cone.slope[axis] - u[axis] / distance;
       row[3 + axis] = -u[axis];
     }
-    add_equation(matrix, right, row, dot(u, cone.slope) - distance, weights[i]);
+    add_equation(equations.matrix, equations.right, row, dot(u, cone.slope) - distance, weights[i]);
   }
-  for (std::size_t i = 0; i < 6; ++i) matrix[i][i] += damping * matrix[i][i] + 1e-12;
+  return equations;
+}
+
+/// The step, damped; the cone itself where the equations have no solution.
+Cone improved(const Cone& cone, Equations equations, double damping) {
+  for (std::size_t i = 0; i < 6; ++i) equations.matrix[i][i] += damping * equations.matrix[i][i] + 1e-12;
   Cone result = cone;
-  if (const auto step = solution(matrix, right)) {
+  if (const auto step = solution(equations.matrix, equations.right)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       result.apex[axis] += (*step)[axis];
       result.slope[axis] += (*step)[3 + axis];
@@ -119,9 +130,10 @@ std::optional<Cone> fitted_cone(std::span<const Point> points, std::span<const d
   Cone cone = cone_from(apex, points, weights);
   double sum = misfit(cone, points, weights);
   double damping = 1e-3;
+  Equations equations = equations_at(cone, points, weights);
   // Until a step brings nothing to speak of; exact cones take four to six.
   for (int tries = 0; tries < 12 && sum > 1e-12; ++tries) {
-    const Cone next = improved(cone, points, weights, damping);
+    const Cone next = improved(cone, equations, damping);
     const double next_sum = misfit(next, points, weights);
     if (next_sum < sum) {
       // What is no tip is fitted ever better by ever larger cones.
@@ -130,6 +142,7 @@ std::optional<Cone> fitted_cone(std::span<const Point> points, std::span<const d
       cone = next;
       sum = next_sum;
       if (has_arrived) break;
+      equations = equations_at(cone, points, weights);
       damping *= 0.1;
     } else {
       damping *= 10;

@@ -46,16 +46,17 @@ double sector_cosine(const std::array<double, 2>& a, const std::array<double, 2>
   return (a[0] * b[0] + a[1] * b[1]) / lengths;
 }
 
-/// Which of sixteen equal sectors a direction lies in, counter-clockwise from the positive x axis.
-int sixteenth_of_turn(const std::array<double, 2>& direction) {
+/// Which of sixteen equal sectors a direction lies in, counter-clockwise from the positive x axis. Without
+/// branches, of which no CPU could guess one.
+unsigned sixteenth_of_turn(const std::array<double, 2>& direction) {
   constexpr double tangent = 0.41421356237309503;  // of 22.5 degrees
   const double x = std::abs(direction[0]);
   const double y = std::abs(direction[1]);
-  int of_quarter = 0;
-  if (y > x) of_quarter = x > tangent * y ? 2 : 3;
-  else if (y > tangent * x) of_quarter = 1;
-  if (direction[1] < 0) return direction[0] < 0 ? 8 + of_quarter : 15 - of_quarter;
-  return direction[0] < 0 ? 7 - of_quarter : of_quarter;
+  const auto from_axis = static_cast<unsigned>(y > tangent * x) + static_cast<unsigned>(y > x) +
+                         (static_cast<unsigned>(y > x) & static_cast<unsigned>(x <= tangent * y));
+  const auto is_below = static_cast<unsigned>(direction[1] < 0);
+  const unsigned is_odd = is_below ^ static_cast<unsigned>(direction[0] < 0);  // quarter
+  return 8 * is_below + 4 * is_odd + (from_axis ^ (3 * is_odd));
 }
 
 /// False only if no sector of more than 112.5 degrees is empty: one would hold four whole sixteenths.
@@ -130,36 +131,32 @@ void follow_merges(const GaussMap& map, int min_cluster, double persistence, Fac
   born.clear();
   clusters.resize(std::max(clusters.size(), static_cast<std::size_t>(lines)));
   const auto bear = [&](std::uint32_t cluster, std::uint32_t size, double height) {
-    clusters[cluster].oldest = static_cast<std::uint32_t>(born.size());
-    clusters[cluster].faces.push_back(clusters[cluster].oldest);
-    born.push_back({cluster, size, height, std::numeric_limits<double>::infinity()});
+    clusters[cluster].oldest = clusters[cluster].newest = static_cast<std::uint32_t>(born.size());
+    born.push_back({cluster, size, none, height, std::numeric_limits<double>::infinity()});
   };
   for (std::uint32_t i = 0; i < lines; ++i) {
-    clusters[i].next = none;
-    clusters[i].last = i;
-    clusters[i].oldest = none;
-    clusters[i].faces.clear();
+    clusters[i] = {none, i, none, none};
     if (min_cluster <= 1) bear(i, 1, 0);
   }
 
   for (const kernels::Merge& merge : map.merges()) {
     auto& first = clusters[merge.first];
-    auto& second = clusters[merge.second];
+    const auto& second = clusters[merge.second];
     if (first.oldest != none && second.oldest != none) {
       const bool first_is_older = born[first.oldest].height <= born[second.oldest].height;
+      const auto& older = first_is_older ? first : second;
       const auto& younger = first_is_older ? second : first;
       const double younger_birth = std::max(born[younger.oldest].height, smallest_birth);
       const bool persistent = merge.height >= persistence * younger_birth;
-      for (const std::uint32_t f : younger.faces)
+      for (std::uint32_t f = younger.oldest; f != none; f = born[f].next)
         born[f].death = persistent ? std::min(born[f].death, merge.height) : 0;
-      if (!first_is_older) {
-        first.oldest = second.oldest;
-        first.faces.swap(second.faces);
-      }
-      if (persistent) first.faces.insert(first.faces.end(), second.faces.begin(), second.faces.end());
+      if (persistent) born[older.newest].next = younger.oldest;
+      const std::uint32_t newest = persistent ? younger.newest : older.newest;
+      first.oldest = older.oldest;
+      first.newest = newest;
     } else if (second.oldest != none) {
       first.oldest = second.oldest;
-      first.faces.swap(second.faces);
+      first.newest = second.newest;
     }
     clusters[first.last].next = merge.second;
     first.last = second.last;

@@ -30,11 +30,12 @@ struct FaceWorkspace {
   struct Cluster {
     std::uint32_t next;    // the next line of the same cluster
     std::uint32_t last;    // the last line of the cluster that begins here
-    std::uint32_t oldest;  // index of its oldest face in born
-    std::vector<std::uint32_t> faces;
+    std::uint32_t oldest;  // index of its oldest face in born, the first of a list
+    std::uint32_t newest;  // index of the last face of that list
   };
   struct Birth {
     std::uint32_t first, lines;  // the lines that it was born of: so many from the first one on
+    std::uint32_t next;          // the next face of the same cluster
     double height;
     double death;
   };

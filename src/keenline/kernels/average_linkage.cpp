@@ -39,12 +39,17 @@ constexpr std::uint32_t none = 0xFFFF'FFFFU;
 /// A sum that no cluster has.
 constexpr std::uint32_t self = 0x8000'0000U;
 
+/// Matrices of more columns leave the first cache.
+constexpr std::size_t most_columns_written_at_once = 80;
+
 /// Clusters by name. Rows and columns of clusters that were merged into others stay where they are, and no
-/// more is written there. Rows are brought up to date when they are read: writing every merged cluster into
-/// its column at once would touch a line of the cache for every number.
+/// more is read there. The rows of large matrices are brought up to date when they are read: writing every
+/// merged cluster into its column at once would touch a line of the cache for every number. Where they all
+/// are in the first cache, that is the faster way.
 struct Clusters {
   std::uint32_t* sums;
   std::size_t stride;
+  std::size_t rows;
   std::size_t columns;  // whole pairs of vectors
   LinkageWorkspace::Cluster* clusters;
   float* weights;  // 1 / size; not a number for those that were merged into others, and beyond the last
@@ -52,6 +57,7 @@ struct Clusters {
   std::uint32_t index_mask;
   std::uint32_t newest = none;  // of those made of others
 
+  [[nodiscard]] bool are_written_at_once() const { return columns <= most_columns_written_at_once; }
   [[nodiscard]] std::uint32_t* row(std::size_t name) const { return sums + name * stride; }
   [[nodiscard]] LinkageWorkspace::Cluster& operator[](std::size_t name) const { return clusters[name]; }
 };
@@ -60,6 +66,7 @@ struct Clusters {
 HWY_INLINE std::uint32_t* current_row(const Clusters& clusters, std::size_t name) {
   auto& cluster = clusters[name];
   std::uint32_t* const row = clusters.row(name);
+  if (clusters.are_written_at_once()) return row;
   row[name] = self;
   std::uint32_t other = clusters.newest;
   for (; other != none && clusters[other].birth > cluster.seen; other = clusters[other].older)
@@ -150,11 +157,28 @@ HWY_INLINE std::uint32_t nearest(const Clusters& clusters, std::size_t name) {
   return nearest_by(clusters, row, smallest);
 }
 
+/// Brings the other rows up to date with that of a merged cluster.
+HWY_INLINE void write_column(const Clusters& clusters, std::size_t name) {
+  std::uint32_t* const row = clusters.row(name);
+  row[name] = self;
+  for (std::size_t other = 0; other < clusters.rows; ++other) clusters.row(other)[name] = row[other];
+}
+
 /// Takes a cluster off the list of those made of others.
 HWY_INLINE void retire(Clusters& clusters, const LinkageWorkspace::Cluster& cluster) {
   if (cluster.birth == 0) return;
   if (cluster.older != none) clusters[cluster.older].newer = cluster.newer;
   (cluster.newer != none ? clusters[cluster.newer].older : clusters.newest) = cluster.older;
+}
+
+/// Puts it at the head of that list.
+HWY_INLINE void enlist(Clusters& clusters, std::uint32_t name, std::uint32_t number) {
+  auto& cluster = clusters[name];
+  if (clusters.newest != none) clusters[clusters.newest].newer = name;
+  cluster.older = clusters.newest;
+  cluster.newer = none;
+  cluster.birth = cluster.seen = number;
+  clusters.newest = name;
 }
 
 /// Puts the items of b into a < b; merges are numbered from 1.
@@ -165,17 +189,15 @@ HWY_INLINE Merge join(Clusters& clusters, std::uint32_t a, std::uint32_t b, std:
   const std::uint32_t* const added = current_row(clusters, b);
   const double pairs = static_cast<double>(first.size) * second.size;
   const Merge merge{a, b, first.size, second.size, static_cast<double>(row[b]) / pairs};
-  retire(clusters, first);
-  retire(clusters, second);
+  if (!clusters.are_written_at_once()) {
+    retire(clusters, first);
+    retire(clusters, second);
+    enlist(clusters, a, number);
+  }
   first.size += second.size;
   second.size = 0;
   clusters.weights[a] = 1.0F / static_cast<float>(first.size);
   clusters.weights[b] = std::numeric_limits<float>::quiet_NaN();
-  if (clusters.newest != none) clusters[clusters.newest].newer = a;
-  first.older = clusters.newest;
-  first.newer = none;
-  first.birth = first.seen = number;
-  clusters.newest = a;
 
   const Words d;
   TwoSmallest smallest(clusters.index_mask);
@@ -188,6 +210,7 @@ HWY_INLINE Merge join(Clusters& clusters, std::uint32_t a, std::uint32_t b, std:
     add(i);
     add(i + hn::Lanes(d));
   }
+  if (clusters.are_written_at_once()) write_column(clusters, a);
   first.nearest = nearest_by(clusters, row, smallest);
   first.nearest_size = clusters[first.nearest].size;
   return merge;
@@ -208,6 +231,7 @@ Clusters prepared(std::uint32_t* sums, int count, LinkageWorkspace& workspace) {
   }
   return {sums,
           row_length(count),
+          n,
           columns,
           workspace.clusters.data(),
           workspace.weights.data(),
@@ -219,6 +243,8 @@ Clusters prepared(std::uint32_t* sums, int count, LinkageWorkspace& workspace) {
 int cluster(std::uint32_t* sums, int count, std::uint32_t enough, LinkageWorkspace& workspace,
             Merge* merges) {
   Clusters clusters = prepared(sums, count, workspace);
+  if (clusters.are_written_at_once())
+    for (std::size_t name = 0; name < clusters.rows; ++name) clusters.row(name)[name] = self;
   const Merge* const first_merge = merges;
   std::uint32_t before = none;
   for (std::uint32_t top = 0, number = 1; clusters[top].size < enough;) {
