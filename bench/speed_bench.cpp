@@ -1,8 +1,8 @@
 // What finding sharp features costs, against finding the neighbours alone: on each cloud and in one run,
 // single-threaded, nanoflann's plain pass over all points, keenline's neighbour stage, and neighbours +
-// method gauss with the labels of all sensitivities; the textbook clustering on a sample of the points;
-// then the same with all threads. Then every other method, and the rivals that this machine has. Medians of
-// the ratios over the rounds.
+// method gauss with the labels of all sensitivities; the paper's method word for word on a sample of the
+// points; then the same with all threads. Then every other method, and the rivals that this machine has.
+// Medians of the ratios over the rounds.
 //
 //     speed_bench [ROUNDS [FILE…]]      FILE: a scan, measured as it is
 
@@ -70,14 +70,16 @@ struct Round {
   double speedup = 0;
 };
 
-double textbook_s(const PointCloud& cloud, const Neighborhoods& table) {
+/// The paper's method: all triangles of 16 neighbours, one sensitivity.
+double textbook_s(const PointCloud& cloud) {
   constexpr std::size_t sample = 200;
+  const Neighborhoods table = find_neighborhoods(cloud, neighbors);
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / sample);
   std::size_t looked_at = 0;
   int clusters = 0;
   const double seconds = bench::processor_s([&] {
     for (std::size_t i = 0; i < cloud.size(); i += step, ++looked_at)
-      clusters += test::textbook_gauss(cloud, i, table.of(i), 20, 4, 0.001).clusters;
+      clusters += test::textbook_gauss(cloud, i, table.of(i), {}).clusters;
   });
   return clusters < 0 ? 0 : seconds * static_cast<double>(cloud.size()) / static_cast<double>(looked_at);
 }
@@ -98,8 +100,7 @@ Round measure(Subject& subject, const GaussOptions& options, bool with_textbook)
     round.neighbors_s = bench::processor_s([&] { table = find_neighborhoods(cloud, neighbors); });
     one_thread_s = bench::wall_s([&] { round.gauss_s = bench::processor_s(detect); });
     if (with_textbook) {
-      table = find_neighborhoods(cloud, options.neighbors);
-      round.textbook_s = textbook_s(cloud, table);
+      round.textbook_s = textbook_s(cloud);
     }
   }
   round.speedup = one_thread_s / bench::wall_s(detect);
@@ -117,17 +118,23 @@ double median_of(const std::vector<Round>& rounds, const std::function<double(co
   return bench::median(values);
 }
 
-/// `k`: neighbours, or 0 for the default of that noise.
-void report(Subject subject, int rounds_wanted, bool with_textbook, int k = 0) {
+enum class Lines { OfDefault, OfPaper };
+
+/// With the options that follow the cloud's noise, or with the paper's lines: all triangles of 16 neighbours.
+void report(Subject subject, int rounds_wanted, bool with_textbook, Lines lines = Lines::OfDefault) {
   const double noise = estimate_noise(subject.cloud, NeighborSearch(subject.cloud.positions));
   GaussOptions options = default_options(subject.cloud, noise);
-  if (k > 0) options.neighbors = k;
+  if (lines == Lines::OfPaper) {
+    options.neighbors = neighbors;
+    options.triangles.reset();
+  }
   std::vector<Round> rounds;
   for (int i = 0; i < rounds_wanted; ++i) rounds.push_back(measure(subject, options, with_textbook));
   const double ns = 1e9 / static_cast<double>(subject.cloud.size());
   const double textbook = median_of(rounds, [](const Round& r) { return r.textbook_s / r.gauss_s; });
-  fmt::print("{:<24} {:>9} {:>3} {:>9.0f} {:>9.0f} {:>9.0f} {:>8.2f} {:>9} {:>8.2f} {:>6}\n", subject.name,
-             subject.cloud.size(), options.neighbors,
+  const int triangles = options.triangles.value_or(options.neighbors * (options.neighbors - 1) / 2);
+  fmt::print("{:<24} {:>9} {:>3} {:>5} {:>9.0f} {:>9.0f} {:>9.0f} {:>8.2f} {:>9} {:>8.2f} {:>6}\n",
+             subject.name, subject.cloud.size(), options.neighbors, triangles,
              median_of(rounds, [](const Round& r) { return r.nanoflann_s; }) * ns,
              median_of(rounds, [](const Round& r) { return r.neighbors_s; }) * ns,
              median_of(rounds, [](const Round& r) { return r.gauss_s; }) * ns,
@@ -182,16 +189,16 @@ void report_methods(Subject subject, int rounds) {
 int main(int argc, char** argv) {
   const int rounds = std::max(1, argc > 1 ? std::atoi(argv[1]) : 3);
   fmt::print("kernels: {}\n", kernels::target());
-  fmt::print("{:<24} {:>9} {:>3} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>6}\n", "cloud", "points", "k",
-             "nanoflann", "neighbors", "gauss", "gauss /", "textbook", "threads", "F1");
-  fmt::print("{:<24} {:>9} {:>3} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>6}\n", "", "", "", "ns/point",
-             "ns/point", "ns/point", "nanofl.", "/ gauss", "speedup", "");
+  fmt::print("{:<24} {:>9} {:>3} {:>5} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>6}\n", "cloud", "points", "k",
+             "lines", "nanoflann", "neighbors", "gauss", "gauss /", "textbook", "threads", "F1");
+  fmt::print("{:<24} {:>9} {:>3} {:>5} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>6}\n", "", "", "", "",
+             "ns/point", "ns/point", "ns/point", "nanofl.", "/ gauss", "speedup", "");
   for (const std::uint64_t points : {100'000U, 1'000'000U, 3'000'000U}) {
     const bool with_textbook = points == 100'000;
     const int repeats = points > 1'000'000 ? 1 : rounds;
     report(synthetic("fandisk", points, 0), repeats, with_textbook);
     report(synthetic("cube", points, 0), repeats, with_textbook);
-    report(synthetic("fandisk", points, 0.1), repeats, with_textbook, neighbors);
+    report(synthetic("fandisk", points, 0.1), repeats, with_textbook, Lines::OfPaper);
     report(synthetic("fandisk", points, 0.1), repeats, with_textbook);
   }
   std::vector<Subject> scans;

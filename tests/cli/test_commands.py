@@ -28,7 +28,7 @@ class Detect(FolderTest):
         self.assertEqual(report["points"], 2000)
         self.assertEqual(report["method"], "gauss")
         self.assertEqual(report["options"], {"neighbors": 16, "sigma": 25, "min-cluster": "auto", "max-clusters": "auto",
-                                             "min-sine": 0.001, "persistence": "auto", "scales": 1, "min-support": 1, "thin": True, "plain": False, "spectrum": False})
+                                             "min-sine": 0.001, "triangles": "auto", "persistence": "auto", "scales": 1, "min-support": 1, "thin": True, "plain": False, "spectrum": False})
         self.assertEqual(set(report["timings_s"]), {"read", "neighborhoods", "smooth", "detect", "write", "total"})
         self.assertEqual(sum(report["counts"].values()), 2000)
         self.assertEqual(report["counts"]["edge"] + report["counts"]["corner"] + report["counts"]["peak"], report["feature_points"])
@@ -193,7 +193,7 @@ class Others(FolderTest):
         gauss = listing["methods"][0]
         self.assertEqual(gauss["name"], "gauss")
         self.assertEqual([o["name"] for o in gauss["options"]],
-                         ["neighbors", "scales", "sigma", "min-cluster", "max-clusters", "min-sine", "persistence", "min-support", "thin", "plain", "spectrum"])
+                         ["neighbors", "scales", "sigma", "min-cluster", "max-clusters", "min-sine", "triangles", "persistence", "min-support", "thin", "plain", "spectrum"])
         text = run("methods").stdout
         self.assertIn("Weber", text)
         self.assertEqual(listing["tracers"][0]["name"], "walk")

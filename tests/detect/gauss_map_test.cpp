@@ -54,6 +54,21 @@ TEST(GaussMapOfAPoint, SlenderTrianglesAreLeftOut) {
   EXPECT_EQ(wide.lines().count, 66 - 6 - 24);
 }
 
+TEST(GaussMapOfAPoint, TheBestTrianglesAreThoseNearestToEquilateral) {
+  // Twelve on a circle: 60 degrees apart are those two steps apart, then come those of one and three.
+  const auto positions = circle(12);
+  const auto lines_of_best = [&](int triangles) {
+    GaussMap map(0.001, no_progress(), triangles);
+    map.collect(positions, positions[0], all_but_first(positions));
+    return map.lines().count;
+  };
+  EXPECT_EQ(lines_of_best(3), 12);  // equal ones stay together
+  EXPECT_EQ(lines_of_best(12), 12);
+  EXPECT_EQ(lines_of_best(13), 24);
+  EXPECT_EQ(lines_of_best(66), 60);
+  EXPECT_EQ(lines_of_best(1000), 60);
+}
+
 TEST(GaussMapOfAPoint, ScaleAndPlaceAreLost) {
   const auto unit = circle(9);
   GaussMap expected(0.001, no_progress());

@@ -173,8 +173,7 @@ double disagreement(const PointCloud& cloud, const GaussOptions& options, std::s
   std::size_t compared = 0;
   std::size_t different = 0;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
-    const test::TextbookLabel expected = test::textbook_gauss(
-        cloud, i, neighborhoods.of(i), options.sigma_deg, options.max_clusters.value_or(4), options.min_sine);
+    const test::TextbookLabel expected = test::textbook_gauss(cloud, i, neighborhoods.of(i), options);
     ++compared;
     if (labels.kind[i] != expected.kind || labels.clusters[i] != expected.clusters) ++different;
   }
@@ -217,6 +216,15 @@ INSTANTIATE_TEST_SUITE_P(Shapes, GaussAgainstTextbook,
                          [](const auto& test) {
                            return name_of_case(test.param.shape, test.param.noise_h, test.param.sigma_deg);
                          });
+
+TEST(Gauss, BestTrianglesEqualTheTextbook) {
+  GaussOptions options = plain();
+  for (const auto& [neighbors, triangles] : {std::pair{16, 40}, {28, 40}, {20, 150}}) {
+    options.neighbors = neighbors;
+    options.triangles = triangles;
+    EXPECT_LE(disagreement(shape("fandisk", points_to_compare, 0.1).cloud, options), 0.001) << triangles;
+  }
+}
 
 TEST(Gauss, RealFandiskEqualsTheTextbook) {
   const std::filesystem::path path =
@@ -439,6 +447,7 @@ TEST(Gauss, RefusesOptionsOutOfRange) {
   refuses([](GaussOptions& o) { o.min_cluster = 0; }, "min_cluster");
   refuses([](GaussOptions& o) { o.max_clusters = 1; }, "max_clusters");
   refuses([](GaussOptions& o) { o.min_sine = -0.1; }, "min_sine");
+  refuses([](GaussOptions& o) { o.triangles = 2; }, "triangles");
   refuses([](GaussOptions& o) { o.persistence = 0.9; }, "persistence");
   refuses([](GaussOptions& o) { o.min_support = 17; }, "min_support");
   EXPECT_THROW((void)detect_gauss(PointCloud{}, neighborhoods), InvalidArgument);

@@ -77,6 +77,7 @@ TEST(Registry, RefusesValuesWithTheAllowedRange) {
   refuses("min-cluster", "0", "an integer from 1");
   refuses("max-clusters", "1", "an integer from 2 to 255");
   refuses("min-sine", "1.5", "from 0 to 1");
+  refuses("triangles", "2", "an integer from 3 to 32385");
 }
 
 TEST(Registry, WhatFollowsTheNoiseIsFilledIn) {
@@ -84,14 +85,18 @@ TEST(Registry, WhatFollowsTheNoiseIsFilledIn) {
   const auto adapted = [&](double noise, const OptionValues& given = {}, std::size_t points = 1000) {
     OptionValues values = resolve_options(gauss, given);
     gauss.adapt(values, noise, points);
-    return std::pair(*values.at("neighbors"), *values.at("min-sine"));
+    return std::pair(*values.at("neighbors"), values.at("triangles"));
   };
-  EXPECT_EQ(adapted(0), std::pair(16.0, 0.001));
-  EXPECT_EQ(adapted(0.1), std::pair(20.0, 0.1));
-  EXPECT_EQ(adapted(0.2).first, 24.0);
-  EXPECT_EQ(adapted(7), std::pair(24.0, 0.3));
-  EXPECT_EQ(adapted(7, {{"plain", 1.0}}), std::pair(16.0, 0.001));
-  EXPECT_EQ(adapted(7, {{"neighbors", 12.0}, {"min-sine", 0.0}}), std::pair(12.0, 0.0));
+  const std::optional<double> all;
+  EXPECT_EQ(adapted(0), std::pair(16.0, all));
+  EXPECT_EQ(adapted(0.0001), std::pair(16.0, std::optional(115.0)));
+  EXPECT_EQ(adapted(0.0075), std::pair(19.0, std::optional(106.0)));  // half way from 171 to 40
+  EXPECT_EQ(adapted(0.025), std::pair(22.0, std::optional(57.0)));
+  EXPECT_EQ(adapted(0.1), std::pair(28.0, std::optional(40.0)));
+  EXPECT_EQ(adapted(7), std::pair(28.0, std::optional(40.0)));
+  EXPECT_EQ(adapted(7, {{"plain", 1.0}}), std::pair(16.0, all));
+  EXPECT_EQ(adapted(7, {{"neighbors", 8.0}}), std::pair(8.0, std::optional(28.0)));
+  EXPECT_EQ(adapted(7, {{"neighbors", 12.0}, {"triangles", 50.0}}), std::pair(12.0, std::optional(50.0)));
   EXPECT_EQ(adapted(7, {}, 20).first, 19.0);
   EXPECT_EQ(adapted(7, {}, 3).first, 16.0);
   EXPECT_TRUE(gauss.is_plain(resolve_options(gauss, {{"plain", 1.0}})));
@@ -138,6 +143,7 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(defaults.min_cluster, standard.min_cluster);
   EXPECT_EQ(defaults.max_clusters, standard.max_clusters);
   EXPECT_EQ(defaults.min_sine, standard.min_sine);
+  EXPECT_EQ(defaults.triangles, standard.triangles);
   EXPECT_EQ(defaults.sigma_rule, standard.sigma_rule);
   EXPECT_EQ(defaults.persistence, standard.persistence);
   EXPECT_EQ(defaults.thin, standard.thin);
@@ -148,6 +154,7 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
                                                                         {"min-cluster", 5.0},
                                                                         {"max-clusters", 6.0},
                                                                         {"min-sine", 0.3},
+                                                                        {"triangles", 50.0},
                                                                         {"persistence", 2.5},
                                                                         {"thin", 0.0},
                                                                         {"plain", 1.0},
@@ -158,6 +165,7 @@ TEST(Registry, GaussOptionsAreThoseOfTheMethod) {
   EXPECT_EQ(given.min_cluster, 5);
   EXPECT_EQ(given.max_clusters, 6);
   EXPECT_EQ(given.min_sine, 0.3);
+  EXPECT_EQ(given.triangles, 50);
   EXPECT_EQ(given.persistence, 2.5);
   EXPECT_FALSE(given.thin);
   EXPECT_TRUE(given.plain);

@@ -111,5 +111,29 @@ TEST(ChooseSigma, TakesTheLargestOfTheStableRange) {
   EXPECT_EQ(relabel(spectrum, SigmaRule::Auto, 0).sigma_deg, sigma_deg);
 }
 
+TEST(ChooseSigma, SeesWhatStaysAndNotNothing) {
+  // One point in a hundred is an edge, up to 18 to 34 degrees, and three more for half a degree about 11.
+  LabelSpectrum spectrum;
+  const auto add = [&](double from_deg, double to_deg) {
+    for (const auto& [from, kind] :
+         {std::pair{0.0, Kind::Curved}, {from_deg, Kind::Edge}, {to_deg, Kind::Flat}}) {
+      spectrum.from.push_back(sensitivity_of(std::max(from, 0.01)));
+      spectrum.kind.push_back(kind);
+      spectrum.clusters.push_back(1);
+    }
+    spectrum.offsets.push_back(spectrum.from.size());
+  };
+  for (int i = 0; i < 120; ++i) add(5, 18 + 16 * i / 120.0);
+  for (int i = 0; i < 3; ++i) add(10.5, 11);
+  for (int i = 0; i < 12000; ++i) {
+    spectrum.from.push_back(0);
+    spectrum.kind.push_back(Kind::Flat);
+    spectrum.clusters.push_back(1);
+    spectrum.offsets.push_back(spectrum.from.size());
+  }
+  EXPECT_LT(choose_sigma(spectrum), 18);
+  EXPECT_GT(choose_sigma(spectrum), 11);
+}
+
 }  // namespace
 }  // namespace keenline

@@ -3,11 +3,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <random>
 #include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "keenline/kernels/triangle_shapes.h"
 
 #include "support/each_target.h"
 
@@ -17,7 +21,9 @@ namespace {
 using Offsets = std::vector<std::array<double, 3>>;
 using Line = std::tuple<float, float, float>;
 
-std::vector<Line> lines_of(const Offsets& offsets, double min_sine) {
+/// Of all triangles, or of those that are shaped so well.
+std::vector<Line> lines_of(const Offsets& offsets, double min_sine,
+                           std::optional<std::uint8_t> least_shape = {}) {
   std::vector<double> lengths;
   for (const auto& a : offsets) lengths.push_back(std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
   const std::size_t room = offsets.size() * (offsets.size() + 1) / 2 + line_slack;
@@ -25,8 +31,13 @@ std::vector<Line> lines_of(const Offsets& offsets, double min_sine) {
   std::vector<float> y(room);
   std::vector<float> z(room);
   const double* const first = offsets.empty() ? nullptr : offsets.front().data();
-  const int count = triangle_lines(first, lengths.data(), static_cast<int>(offsets.size()), min_sine,
-                                   x.data(), y.data(), z.data());
+  const auto corners = static_cast<int>(offsets.size());
+  std::vector<std::uint8_t> shapes(room + shape_slack);
+  triangle_shapes(first, corners, shapes.data());
+  const int count =
+      least_shape ? triangle_lines(first, lengths.data(), corners, min_sine, shapes.data(), *least_shape,
+                                   x.data(), y.data(), z.data())
+                  : triangle_lines(first, lengths.data(), corners, min_sine, x.data(), y.data(), z.data());
   std::vector<Line> lines;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) lines.emplace_back(x[i], y[i], z[i]);
   return lines;
@@ -63,6 +74,27 @@ TEST(TriangleLines, WithoutANormalOrTooSlenderAreLeftOut) {
   });
 }
 
+TEST(TriangleLines, ThoseOfShapelyTrianglesAreAmongAll) {
+  for (const std::size_t count : {3U, 16U, 28U, 100U, 255U}) {
+    const Offsets offsets = random_offsets(count, 1);
+    on_each_target([&] {
+      const auto all = lines_of(offsets, 0.001);
+      EXPECT_EQ(lines_of(offsets, 0.001, 0), all);
+      const auto some = lines_of(offsets, 0.001, 190);
+      EXPECT_LE(some.size(), all.size() / 2);
+      std::size_t found = 0;  // in the same order
+      for (const Line& line : all) found += found < some.size() && some[found] == line ? 1U : 0U;
+      EXPECT_EQ(found, some.size());
+    });
+  }
+  // A right angle is 192 of 256, see triangle_shapes().
+  const Offsets axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 0.5}};
+  on_each_target([&] {
+    EXPECT_EQ(lines_of(axes, 0, 192), (std::vector<Line>{{0, 0, 1}}));
+    EXPECT_TRUE(lines_of(axes, 0, 193).empty());
+  });
+}
+
 TEST(TriangleLines, AreTheSameBitsOnEveryTarget) {
   for (unsigned seed = 0; seed < 42; ++seed) {
     const Offsets offsets = random_offsets(seed, seed);
@@ -70,6 +102,11 @@ TEST(TriangleLines, AreTheSameBitsOnEveryTarget) {
       std::vector<Line> expected;
       on_each_target([&] {
         const auto lines = lines_of(offsets, min_sine);
+        if (target_is_scalar()) expected = lines;
+        EXPECT_EQ(lines, expected) << seed << ' ' << min_sine;
+      });
+      on_each_target([&] {
+        const auto lines = lines_of(offsets, min_sine, 150);
         if (target_is_scalar()) expected = lines;
         EXPECT_EQ(lines, expected) << seed << ' ' << min_sine;
       });

@@ -28,6 +28,7 @@ export interface Cut {
 
 export interface GaussOptions {
   minSine: number; // triangles with a smaller sine at the point have no usable normal
+  triangles: number | null; // so many, the best shaped, and those shaped as well as the last; null: all
   minCluster: number | null; // null: a tenth of the lines, at least 3
 }
 
@@ -38,7 +39,7 @@ export function gaussMap(
   neighbors: Uint32Array,
   options: GaussOptions,
 ): GaussMap {
-  const lines = triangleLines(offsetsOf(coordinates, point, neighbors), options.minSine);
+  const lines = triangleLines(offsetsOf(coordinates, point, neighbors), options);
   const count = lines.length / 3;
   return {
     lines,
@@ -57,15 +58,56 @@ function offsetsOf(coordinates: Coordinates, point: number, neighbors: Uint32Arr
   return offsets;
 }
 
+const f = Math.fround;
+
+/**
+ * How well shaped the triangles (0, a_i, a_j) are, i < j: 256 q², a whole number up to 255, where q = 4 √3 area /
+ * (sum of the squares of the sides). In single precision step by step: the program's numbers.
+ */
+export function triangleShapes(offsets: Float64Array): number[] {
+  const single = Float32Array.from(offsets);
+  const dot = (u: ArrayLike<number>, v: ArrayLike<number>) =>
+    f(f(f(u[0] * v[0]) + f(u[1] * v[1])) + f(u[2] * v[2]));
+  const shapes: number[] = [];
+  for (let i = 0; i < single.length; i += 3) {
+    const a = single.subarray(i, i + 3);
+    for (let j = i + 3; j < single.length; j += 3) {
+      const b = single.subarray(j, j + 3);
+      const normal = [0, 1, 2].map((axis) => {
+        const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        return f(f(a[u] * b[v]) - f(a[v] * b[u]));
+      });
+      const sides = f(f(dot(a, a) + dot(b, b)) - dot(a, b));
+      const shape = sides > 0 ? f(f(768 * dot(normal, normal)) / f(sides * sides)) : 0;
+      shapes.push(Math.floor(Math.min(shape, 255)));
+    }
+  }
+  return shapes;
+}
+
+/** The shape that so many triangles have at least. */
+function shapeOfBest(shapes: number[], best: number): number {
+  const sorted = [...shapes].sort((a, b) => b - a);
+  return best <= sorted.length ? sorted[best - 1] : 0;
+}
+
 /** Unit normals of the triangles (0, a_i, a_j), i < j. */
-export function triangleLines(offsets: Float64Array, minSine: number): Float32Array {
+export function triangleLines(
+  offsets: Float64Array,
+  { minSine, triangles }: Pick<GaussOptions, "minSine" | "triangles">,
+): Float32Array {
   const count = offsets.length / 3;
+  const shapes = triangles === null ? null : triangleShapes(offsets);
+  const leastShape = shapes && triangles !== null ? shapeOfBest(shapes, triangles) : 0;
+  let triangle = -1;
   const lengths = Float64Array.from({ length: count }, (_, i) =>
     Math.sqrt(offsets[3 * i] ** 2 + offsets[3 * i + 1] ** 2 + offsets[3 * i + 2] ** 2),
   );
   const lines: number[] = [];
   for (let i = 0; i < count; ++i) {
     for (let j = i + 1; j < count; ++j) {
+      ++triangle;
+      if (shapes && shapes[triangle] < leastShape) continue;
       const [ax, ay, az] = offsets.subarray(3 * i, 3 * i + 3);
       const [bx, by, bz] = offsets.subarray(3 * j, 3 * j + 3);
       const nx = ay * bz - az * by;
@@ -73,28 +115,22 @@ export function triangleLines(offsets: Float64Array, minSine: number): Float32Ar
       const nz = ax * by - ay * bx;
       const length = Math.sqrt(nx * nx + ny * ny + nz * nz);
       if (!(length > 0) || length < minSine * (lengths[i] * lengths[j])) continue;
-      lines.push(nx / length, ny / length, nz / length);
+      const inverse = 1 / length;
+      lines.push(nx * inverse, ny * inverse, nz * inverse);
     }
   }
   return Float32Array.from(lines);
 }
 
-const f = Math.fround;
-
-/** Abramowitz & Stegun 4.4.46, highest power first: not Math.acos, whose last bit is the browser's own. */
-const arcCosinePolynomial = [
-  -0.0012624911, 0.0066700901, -0.0170881256, 0.030891881, -0.0501743046, 0.0889789874, -0.2145988016,
-  1.570796305,
-].map(f);
-const unitsPerRadian = f(41711.327);
+/** As the program's, highest power first: not Math.acos, whose last bit is the browser's own. */
+const arcCosinePolynomial = [111.76205, -509.00394, 1167.3652, -2057.043, 3706.7136, -8951.011, 65520].map(f);
 
 /** The angle between two lines in units, in single precision step by step: the program's bits. */
 export function lineAngle(cosine: number): number {
   const c = Math.min(Math.abs(cosine), 1);
   let p = arcCosinePolynomial[0];
   for (let i = 1; i < arcCosinePolynomial.length; ++i) p = f(f(p * c) + arcCosinePolynomial[i]);
-  const units = f(f(f(f(Math.sqrt(f(1 - c))) * p) * unitsPerRadian) + 0.5);
-  return Math.min(Math.floor(units), rightAngle);
+  return Math.floor(f(f(f(Math.sqrt(f(1 - c))) * p) + 0.5));
 }
 
 /** All pairs, row by row. */

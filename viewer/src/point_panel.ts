@@ -174,6 +174,7 @@ function optionsOf({ facts }: Result) {
   const minSine = facts.options["min-sine"];
   return {
     minSine: typeof minSine === "number" ? minSine : 0.001,
+    triangles: wholeOption(facts, "triangles"),
     minCluster: wholeOption(facts, "min-cluster"),
   };
 }

@@ -33,7 +33,7 @@ export function factsOf(points: number): Omit<Facts, "buffers"> {
     smoothed: false,
     sigma_deg: 20,
     sigma_rule: "auto",
-    options: { neighbors: 16, "min-sine": 0.001, "min-cluster": "auto" },
+    options: { neighbors: 16, "min-sine": 0.001, triangles: "auto", "min-cluster": "auto" },
     times: { read: 0.01, detect: 0.2 },
     notes: [],
     cloud: { kept: points, left_out: "", origin: [0, 0, 0], step: 1 / 1024 },

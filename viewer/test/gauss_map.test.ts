@@ -8,6 +8,7 @@ import {
   lineAngles,
   rightAngle,
   triangleLines,
+  triangleShapes,
   unitsPerDegree,
 } from "../src/gauss_map";
 import { random } from "./random";
@@ -76,8 +77,23 @@ test("angles are those of the definition, within a unit", () => {
 
 test("triangles without a usable normal make no lines", () => {
   const offsets = Float64Array.of(1, 0, 0, 2, 0, 0, 0, 3, 0);
-  assert.deepEqual([...triangleLines(offsets, 0.001)], [0, 0, 1, 0, 0, 1]);
-  assert.equal(triangleLines(Float64Array.of(1, 0, 0, 1, 0.01, 0), 0.1).length, 0);
+  assert.deepEqual([...triangleLines(offsets, { minSine: 0.001, triangles: null })], [0, 0, 1, 0, 0, 1]);
+  const slender = Float64Array.of(1, 0, 0, 1, 0.01, 0);
+  assert.equal(triangleLines(slender, { minSine: 0.1, triangles: null }).length, 0);
+});
+
+test("the best triangles are those nearest to equilateral", () => {
+  const corner = (degrees: number) => [
+    Math.cos((degrees * Math.PI) / 180),
+    Math.sin((degrees * Math.PI) / 180),
+    0,
+  ];
+  // Shapes: of 60 degrees, of 30, of 90.
+  const offsets = Float64Array.from([...corner(0), ...corner(60), ...corner(90)]);
+  const [sixty, ninety, thirty] = triangleShapes(offsets);
+  assert.ok(sixty >= 254 && ninety === 192 && thirty < ninety);
+  const count = (triangles: number | null) => triangleLines(offsets, { minSine: 0.001, triangles }).length / 3;
+  assert.deepEqual([1, 2, 3, 4, null].map(count), [1, 2, 3, 3, 3]);
 });
 
 test("a point on a plane has one cluster, on a crease two", () => {
@@ -92,7 +108,7 @@ test("a point on a plane has one cluster, on a crease two", () => {
       ];
     }).flat();
   const neighbors = Uint32Array.from({ length: 16 }, (_, i) => i + 1);
-  const options = { minSine: 0.001, minCluster: null };
+  const options = { minSine: 0.001, triangles: null, minCluster: null };
   const plane = gaussMap(
     Uint32Array.of(1000, 1000, 1000, ...ring(1, 0), ...ring(-1, 0)),
     0,
@@ -113,6 +129,10 @@ test("a point on a plane has one cluster, on a crease two", () => {
 });
 
 test("without lines there is nothing to cut", () => {
-  const none = gaussMap(Uint32Array.of(0, 0, 0), 0, new Uint32Array(0), { minSine: 0.001, minCluster: null });
+  const none = gaussMap(Uint32Array.of(0, 0, 0), 0, new Uint32Array(0), {
+    minSine: 0.001,
+    triangles: null,
+    minCluster: null,
+  });
   assert.deepEqual(cut(none, 1000).sizes, []);
 });

@@ -88,7 +88,7 @@ test("the clusters of a point are the program's, clicked or by number", { skip }
   await setSigma(page, sigma);
   // With --plain the number of significant clusters is the label.
   const options = (await keenline("detect", "cloud.ply", "-o", "own.ply")).options as Record<string, unknown>;
-  const same = ["--neighbors", `${options.neighbors}`, "--min-sine", `${options["min-sine"]}`];
+  const same = ["neighbors", "min-sine", "triangles"].flatMap((name) => [`--${name}`, `${options[name]}`]);
   await keenline("detect", "cloud.ply", "--plain", "--sigma", `${sigma}`, ...same, "-o", "plain.csv");
   const clusters = columnsOf(await readFile(join(folder, "plain.csv"), "utf8"), ["clusters"]).map(Number);
   const shown = async () => Number.parseInt((await page.textContent("#cluster-count"))!);

@@ -42,6 +42,7 @@ void require_usable(const GaussOptions& options) {
   require_in_range("min_support", options.min_support, 0, static_cast<double>(neighbors_that_support));
   if (options.persistence) require_in_range("persistence", *options.persistence, 1, 90);
   require_in_range("min_sine", options.min_sine, 0, 1);
+  if (options.triangles) require_in_range("triangles", *options.triangles, 3, 32385);
 }
 
 void require_match(const PointCloud& cloud, const Neighborhoods& neighborhoods) {

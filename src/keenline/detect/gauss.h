@@ -35,6 +35,9 @@ struct GaussOptions {
   std::optional<int> max_clusters;
   /// Triangles whose sine at the point is below this have no usable normal and are skipped. 0 to 1.
   double min_sine = 0.001;
+  /// So many triangles of a point, the best shaped, make its lines, and those shaped as well as the last; see
+  /// kernels::triangle_shapes(). 3 to 32385. Empty = all.
+  std::optional<int> triangles;
   /// How many times higher than its birth a cluster must merge with an older one to be a direction of its
   /// own; see find_faces(). 1 to 90. Empty = 3, or 2 unless thin, where nothing else tells an edge from
   /// chance.

@@ -6,6 +6,7 @@
 #include "keenline/errors.h"
 #include "keenline/kernels/symmetric3.h"
 #include "keenline/kernels/triangle_lines.h"
+#include "keenline/kernels/triangle_shapes.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -44,12 +45,22 @@ double GaussMap::gather_offsets(const std::vector<Point>& positions, const Point
 }
 
 void GaussMap::find_lines() {
-  const std::size_t neighbors = offsets_.size();
-  const std::size_t room = neighbors * (neighbors - 1) / 2 + kernels::line_slack;
-  for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(room);
+  const auto neighbors = static_cast<int>(offsets_.size());
+  const std::size_t triangles = offsets_.size() * (offsets_.size() - 1) / 2;
+  for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(triangles + kernels::line_slack);
   const double* const offsets = neighbors == 0 ? nullptr : offsets_.front().data();
-  const int count = kernels::triangle_lines(offsets, lengths_.data(), static_cast<int>(neighbors), min_sine_,
-                                            x_.data(), y_.data(), z_.data());
+  int count = 0;
+  if (triangles_ && static_cast<std::size_t>(*triangles_) < triangles) {
+    shapes_.resize(triangles + kernels::shape_slack);
+    kernels::triangle_shapes(offsets, neighbors, shapes_.data());
+    const std::uint8_t least =
+        kernels::shape_of_best(shapes_.data(), triangles, static_cast<std::size_t>(*triangles_));
+    count = kernels::triangle_lines(offsets, lengths_.data(), neighbors, min_sine_, shapes_.data(), least,
+                                    x_.data(), y_.data(), z_.data());
+  } else {
+    count = kernels::triangle_lines(offsets, lengths_.data(), neighbors, min_sine_, x_.data(), y_.data(),
+                                    z_.data());
+  }
   for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(static_cast<std::size_t>(count));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,11 @@ namespace keenline {
 /// points, one after the other; every thread has its own.
 class GaussMap {
  public:
-  /// Lines whose triangle's sine at the point is below `min_sine` are left out. `progress` is asked whether
-  /// to stop in the midst of long clusterings.
-  GaussMap(double min_sine, const Progress& progress) : min_sine_(min_sine), progress_(&progress) {}
+  /// Lines whose triangle's sine at the point is below `min_sine` are left out, and those of triangles that
+  /// are worse shaped than so many others, see kernels::triangle_shapes(), unless `triangles` is empty.
+  /// `progress` is asked whether to stop in the midst of long clusterings.
+  GaussMap(double min_sine, const Progress& progress, std::optional<int> triangles = {})
+      : min_sine_(min_sine), triangles_(triangles), progress_(&progress) {}
 
   /// Collects the lines of point p. Offsets are taken in double precision and scaled by a power of two, so
   /// that neither large coordinates nor tiny or huge shapes lose anything.
@@ -54,9 +57,11 @@ class GaussMap {
   void cluster(std::vector<Sum>& sums, int rest);
 
   double min_sine_;
+  std::optional<int> triangles_;
   const Progress* progress_;
   std::vector<Point> offsets_;
   std::vector<double> lengths_;
+  std::vector<std::uint8_t> shapes_;
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> sums32_;
   std::vector<std::uint64_t> sums64_;

@@ -39,7 +39,7 @@ PointLabeler::PointLabeler(const PointCloud& cloud, const GaussOptions& options,
       max_clusters_(options.max_clusters.value_or(options.plain ? 4 : 6)),
       sizes_(neighborhood_sizes(options.neighbors, options.plain ? 1 : options.scales)),
       persistence_(options.persistence.value_or(options.thin ? 3 : 2)),
-      map_(options.min_sine, progress) {}
+      map_(options.min_sine, progress, options.triangles) {}
 
 void PointLabeler::label(std::size_t point, std::span<const std::uint32_t> neighbors) {
   // The first size last: score and map are its.

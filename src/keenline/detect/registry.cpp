@@ -27,7 +27,7 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 constexpr std::array gauss_options{
     OptionInfo{"neighbors",
-               "Nearest neighbours whose triangles make the Gauss map; auto = 16, up to 24 as noise grows",
+               "Nearest neighbours whose triangles make the Gauss map; auto = 16, up to 28 as noise grows",
                OptionInfo::Type::Integer, min_neighbors, max_neighbors, false, "points", std::nullopt,
                "auto"},
     OptionInfo{"scales",
@@ -43,9 +43,11 @@ constexpr std::array gauss_options{
     OptionInfo{"max-clusters",
                "Up to so many directions are a feature, more are curvature; auto = 6, with --plain 4",
                OptionInfo::Type::Integer, 2, 255, false, "clusters", std::nullopt, "auto"},
-    OptionInfo{"min-sine",
-               "Triangles whose sine at the point is smaller have no usable normal; auto = as the noise",
-               OptionInfo::Type::Real, 0, 1, false, "", std::nullopt, "auto"},
+    OptionInfo{"min-sine", "Triangles whose sine at the point is smaller have no usable normal",
+               OptionInfo::Type::Real, 0, 1, false, "", 0.001, ""},
+    OptionInfo{"triangles",
+               "Triangles of a point that are used, the best shaped; auto = all, down to 40 as noise grows",
+               OptionInfo::Type::Integer, 3, 32385, false, "triangles", std::nullopt, "auto"},
     OptionInfo{"persistence",
                "Times higher than its birth that a direction must merge; auto = 3, with --no-thin 2",
                OptionInfo::Type::Real, 1, 90, false, "", std::nullopt, "auto"},
@@ -75,19 +77,27 @@ int gauss_reach(const OptionValues& values) {
 bool gauss_is_plain(const OptionValues& values) { return *values.at("plain") != 0; }
 
 void gauss_adapt(OptionValues& values, double noise, std::size_t points) {
-  const bool plain = gauss_is_plain(values);
+  if (gauss_is_plain(values)) {
+    if (!values.at("neighbors")) values.at("neighbors") = paper_neighbors;
+    return;
+  }
   // What a face is known by are the neighbours on it: the error of its direction falls with their number. But
-  // every further neighbour may lie on another face; half as many again is what the benchmark clouds bear.
+  // every further neighbour may lie on another face; three quarters more is what the benchmark clouds bear.
   auto& neighbors = values.at("neighbors");
   if (!neighbors) {
-    const double more = plain ? 0.0 : std::round(8 * std::min(1.0, noise / 0.2));
+    const double more = std::round(12 * std::sqrt(std::min(1.0, noise / 0.1)));
     // No more than there are: a small cloud is not to be undecided because it is noisy.
     neighbors =
         std::min(paper_neighbors + more, std::max<double>(paper_neighbors, static_cast<double>(points) - 1));
   }
-  // A triangle of sides one spacing long whose sine is below the noise has a normal that means nothing.
-  auto& min_sine = values.at("min-sine");
-  if (!min_sine) min_sine = plain ? 0.001 : std::clamp(noise, 0.001, 0.3);
+  // The flatter a triangle, the more noise tilts it: well-shaped ones say more than all. As few as that are
+  // enough to see three faces by.
+  auto& triangles = values.at("triangles");
+  if (!triangles && noise > 0) {
+    const double all = *neighbors * (*neighbors - 1) / 2;
+    const double enough = std::min(40.0, all);
+    triangles = std::round(all - (all - enough) * std::sqrt(std::min(1.0, noise / 0.03)));
+  }
 }
 
 FeatureLabels gauss_detect(const PointCloud& cloud, const NeighborSearch& search, OptionValues& values,
@@ -373,7 +383,8 @@ GaussOptions gauss_options_from(const OptionValues& values) {
     options.min_cluster = static_cast<int>(*min_cluster);
   if (const auto& max_clusters = values.at("max-clusters"))
     options.max_clusters = static_cast<int>(*max_clusters);
-  options.min_sine = values.at("min-sine").value_or(options.min_sine);
+  options.min_sine = *values.at("min-sine");
+  if (const auto& triangles = values.at("triangles")) options.triangles = static_cast<int>(*triangles);
   options.persistence = values.at("persistence");
   options.min_support = static_cast<int>(*values.at("min-support"));
   options.thin = *values.at("thin") != 0;

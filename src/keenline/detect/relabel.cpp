@@ -148,10 +148,19 @@ double choose_sigma(const LabelSpectrum& spectrum, Progress& progress) {
   for (std::size_t c = 0; c < candidates; ++c)
     change[c] = static_cast<double>(changes.changing[c] + 1) /
                 (static_cast<double>(changes.features[c]) + 0.01 * static_cast<double>(spectrum.size()) + 1);
+  // One that sees next to nothing may be stable because of that. Where others see something that stays, it is
+  // out of the question.
+  std::size_t most_that_stay = 0;
+  for (std::size_t c = 0; c < candidates; ++c)
+    if (5 * changes.changing[c] <= changes.features[c])
+      most_that_stay = std::max(most_that_stay, changes.features[c]);
+  const auto sees_enough = [&](std::size_t c) { return 4 * changes.features[c] >= most_that_stay; };
   // The largest of those that are about as stable as the best: it asks most of an edge for the same result.
-  const double best = *std::min_element(change.begin(), change.end());
+  double best = 1;
+  for (std::size_t c = 0; c < candidates; ++c)
+    if (sees_enough(c)) best = std::min(best, change[c]);
   std::size_t chosen = candidates - 1;
-  while (change[chosen] > best + tolerated_change) --chosen;
+  while (!sees_enough(chosen) || change[chosen] > best + tolerated_change) --chosen;
   return candidate_deg(chosen);
 }
 

@@ -41,8 +41,9 @@ inline constexpr double default_sigma_deg = 20;
 /// One sensitivity for the whole cloud, in degrees, among multiples of 90/64 from 9.8 to 45: the largest of
 /// those around which few labels depend on its exact value. For each, points that are sharp somewhere and not
 /// sharp elsewhere between four fifths and five quarters of it are counted, in proportion to the sharp
-/// points; those within 0.02 of the smallest share are alike. default_sigma_deg where nothing is sharp at any
-/// of them. Stable, because it is chosen where the labels are. Threads: any number, same result. Cost: 26
+/// points; those within 0.02 of the smallest share are alike. Where a fifth of the sharp points or less are
+/// such, at least a quarter of them must still be sharp. default_sigma_deg where nothing is sharp at any of
+/// them. Stable, because it is chosen where the labels are. Threads: any number, same result. Cost: 26
 /// looks at the steps of every point. \throw Cancelled
 [[nodiscard]] double choose_sigma(const LabelSpectrum& spectrum, Progress& progress = no_progress());
 

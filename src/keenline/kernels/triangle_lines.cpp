@@ -20,7 +20,8 @@ namespace {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 // Never called, see target_is_scalar().
 int lines_of(const double* /*offsets*/, const double* /*lengths*/, int /*count*/, double /*min_sine*/,
-             float* /*x*/, float* /*y*/, float* /*z*/) {
+             const std::uint8_t* /*shapes*/, std::uint8_t /*least_shape*/, float* /*x*/, float* /*y*/,
+             float* /*z*/) {
   return 0;
 }
 #else
@@ -78,35 +79,97 @@ struct Output {
   }
 };
 
-/// The lines of a triangle's corner i with a vector of corners that begins at j.
-HWY_INLINE void append_lines(const Offsets& offsets, std::size_t i, std::size_t j, double min_sine,
-                             Output& lines) {
+/// Corners of as many triangles as a vector has lanes, and their distances from the origin.
+struct Corners {
+  Double x, y, z, length;
+};
+
+HWY_INLINE Corners everywhere(const Offsets& offsets, std::size_t i) {
   const Doubles d;
-  const Double ax = hn::Set(d, offsets.x[i]);
-  const Double ay = hn::Set(d, offsets.y[i]);
-  const Double az = hn::Set(d, offsets.z[i]);
-  const Double bx = hn::LoadU(d, offsets.x + j);
-  const Double by = hn::LoadU(d, offsets.y + j);
-  const Double bz = hn::LoadU(d, offsets.z + j);
-  const Double nx = hn::Sub(hn::Mul(ay, bz), hn::Mul(az, by));
-  const Double ny = hn::Sub(hn::Mul(az, bx), hn::Mul(ax, bz));
-  const Double nz = hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
+  return {hn::Set(d, offsets.x[i]), hn::Set(d, offsets.y[i]), hn::Set(d, offsets.z[i]),
+          hn::Set(d, offsets.length[i])};
+}
+
+HWY_INLINE Corners from(const Offsets& offsets, std::size_t j) {
+  const Doubles d;
+  return {hn::LoadU(d, offsets.x + j), hn::LoadU(d, offsets.y + j), hn::LoadU(d, offsets.z + j),
+          hn::LoadU(d, offsets.length + j)};
+}
+
+using Indices = hn::Rebind<std::int64_t, Doubles>;
+
+HWY_INLINE Corners chosen(const Offsets& offsets, hn::Vec<Indices> index) {
+  const Doubles d;
+  return {hn::GatherIndex(d, offsets.x, index), hn::GatherIndex(d, offsets.y, index),
+          hn::GatherIndex(d, offsets.z, index), hn::GatherIndex(d, offsets.length, index)};
+}
+
+HWY_INLINE void append_lines(const Corners& a, const Corners& b, double min_sine, Output& lines) {
+  const Doubles d;
+  const Double nx = hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y));
+  const Double ny = hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z));
+  const Double nz = hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
   const Double length = hn::Sqrt(hn::Add(hn::Add(hn::Mul(nx, nx), hn::Mul(ny, ny)), hn::Mul(nz, nz)));
-  const Double products = hn::Mul(hn::Set(d, offsets.length[i]), hn::LoadU(d, offsets.length + j));
+  const Double products = hn::Mul(a.length, b.length);
   const auto kept =
       hn::And(hn::Gt(length, hn::Zero(d)), hn::Ge(length, hn::Mul(hn::Set(d, min_sine), products)));
   std::uint64_t bits = 0;
   hn::StoreMaskBits(d, kept, reinterpret_cast<std::uint8_t*>(&bits));
-  lines.append(hn::Div(nx, length), hn::Div(ny, length), hn::Div(nz, length), bits);
+  const Double inverse = hn::Div(hn::Set(d, 1.0), length);
+  lines.append(hn::Mul(nx, inverse), hn::Mul(ny, inverse), hn::Mul(nz, inverse), bits);
 }
 
-int lines_of(const double* offsets, const double* lengths, int count, double min_sine, float* x, float* y,
-             float* z) {
+/// Triangles, listed by their corners, that are to make lines: those of a few rows at a time.
+class Choice {
+ public:
+  static constexpr std::size_t row = 255;
+
+  /// Without branches: no CPU could guess which are chosen.
+  HWY_INLINE void add_row(std::size_t i, std::size_t count, const std::uint8_t* shapes,
+                          std::uint8_t least_shape) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      corners_[found_] = static_cast<std::int32_t>(i << 8U | j);
+      found_ += *shapes++ >= least_shape ? 1U : 0U;
+    }
+  }
+  [[nodiscard]] HWY_INLINE bool has_room_for_row() const { return found_ < row; }
+
+  HWY_INLINE void append_to(Output& lines, const Offsets& offsets, double min_sine) {
+    const std::size_t lanes = hn::Lanes(Doubles());
+    // A triangle of a corner with itself has no normal.
+    for (std::size_t i = found_; i < found_ + lanes; ++i) corners_[i] = 0;
+    const Indices d;
+    for (std::size_t i = 0; i < found_; i += lanes) {
+      const auto corners = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::int32_t, Indices>(), corners_ + i));
+      append_lines(chosen(offsets, hn::ShiftRight<8>(corners)),
+                   chosen(offsets, hn::And(corners, hn::Set(d, 255))), min_sine, lines);
+    }
+    found_ = 0;
+  }
+
+ private:
+  std::int32_t corners_[2 * row + line_slack];  // of each triangle, the first times 256
+  std::size_t found_ = 0;
+};
+
+/// `shapes`: none if all triangles are to make lines.
+int lines_of(const double* offsets, const double* lengths, int count, double min_sine,
+             const std::uint8_t* shapes, std::uint8_t least_shape, float* x, float* y, float* z) {
   const auto n = static_cast<std::size_t>(count);
   const Offsets padded(offsets, lengths, n);
   Output lines{x, y, z};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; j += hn::Lanes(Doubles())) append_lines(padded, i, j, min_sine, lines);
+  if (shapes == nullptr) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; j += hn::Lanes(Doubles()))
+        append_lines(everywhere(padded, i), from(padded, j), min_sine, lines);
+    return lines.count;
+  }
+  Choice choice;
+  for (std::size_t i = 0; i < n; shapes += n - ++i) {
+    if (!choice.has_room_for_row()) choice.append_to(lines, padded, min_sine);
+    choice.add_row(i, n, shapes, least_shape);
+  }
+  choice.append_to(lines, padded, min_sine);
   return lines.count;
 }
 
@@ -124,13 +187,15 @@ HWY_EXPORT(lines_of);
 
 }  // namespace
 
-int triangle_lines(const double* offsets, const double* lengths, int count, double min_sine, float* x,
-                   float* y, float* z) {
-  if (!target_is_scalar()) return HWY_DYNAMIC_DISPATCH(lines_of)(offsets, lengths, count, min_sine, x, y, z);
+int triangle_lines(const double* offsets, const double* lengths, int count, double min_sine,
+                   const std::uint8_t* shapes, std::uint8_t least_shape, float* x, float* y, float* z) {
+  if (!target_is_scalar())
+    return HWY_DYNAMIC_DISPATCH(lines_of)(offsets, lengths, count, min_sine, shapes, least_shape, x, y, z);
   int lines = 0;
   const auto n = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
+      if (shapes != nullptr && *shapes++ < least_shape) continue;
       const double* const a = offsets + 3 * i;
       const double* const b = offsets + 3 * j;
       const double nx = a[1] * b[2] - a[2] * b[1];
@@ -138,13 +203,19 @@ int triangle_lines(const double* offsets, const double* lengths, int count, doub
       const double nz = a[0] * b[1] - a[1] * b[0];
       const double length = std::sqrt(nx * nx + ny * ny + nz * nz);
       if (!(length > 0) || length < min_sine * (lengths[i] * lengths[j])) continue;
-      x[lines] = static_cast<float>(nx / length);
-      y[lines] = static_cast<float>(ny / length);
-      z[lines] = static_cast<float>(nz / length);
+      const double inverse = 1 / length;
+      x[lines] = static_cast<float>(nx * inverse);
+      y[lines] = static_cast<float>(ny * inverse);
+      z[lines] = static_cast<float>(nz * inverse);
       ++lines;
     }
   }
   return lines;
+}
+
+int triangle_lines(const double* offsets, const double* lengths, int count, double min_sine, float* x,
+                   float* y, float* z) {
+  return triangle_lines(offsets, lengths, count, min_sine, nullptr, 0, x, y, z);
 }
 
 }  // namespace keenline::kernels

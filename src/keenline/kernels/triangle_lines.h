@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace keenline::kernels {
 
 /// Floats beyond the last line that triangle_lines() may write.
@@ -12,5 +14,10 @@ inline constexpr int line_slack = 8;
 /// \pre 0 <= count <= 255; finite coordinates, squares of their products too
 [[nodiscard]] int triangle_lines(const double* offsets, const double* lengths, int count, double min_sine,
                                  float* x, float* y, float* z);
+
+/// The same of the triangles whose shape is `least_shape` or more. \param shapes  of triangle_shapes()
+[[nodiscard]] int triangle_lines(const double* offsets, const double* lengths, int count, double min_sine,
+                                 const std::uint8_t* shapes, std::uint8_t least_shape, float* x, float* y,
+                                 float* z);
 
 }  // namespace keenline::kernels
