@@ -38,14 +38,17 @@ std::size_t nearest_face(const Point& q, double length, std::span<const Face> fa
   return nearest;
 }
 
+/// For every neighbour the index of its face.
+using Memberships = std::array<std::size_t, 255>;
+
 /// The plane of the neighbours that belong to one of the faces.
-std::optional<Plane> fit_plane(const GaussMap& map, std::span<const Face> faces, std::size_t face) {
+std::optional<Plane> fit_plane(const GaussMap& map, const Memberships& face_of, std::size_t face) {
   std::array<Point, 255> on_face;
   std::size_t count = 0;
   Point mean{0, 0, 0};
   for (std::size_t i = 0; i < map.offsets().size(); ++i) {
+    if (face_of[i] != face) continue;
     const Point& q = map.offsets()[i];
-    if (nearest_face(q, map.lengths()[i], faces) != face) continue;
     on_face[count++] = q;
     for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += q[axis];
   }
@@ -71,9 +74,13 @@ double spacing_of(const GaussMap& map) {
 }  // namespace
 
 std::optional<Crease> first_crease(const GaussMap& map, std::span<const Face> faces) {
-  const std::optional<Plane> a = fit_plane(map, faces, 0);
-  const std::optional<Plane> b = fit_plane(map, faces, 1);
-  if (!a || !b) return std::nullopt;
+  Memberships face_of;
+  for (std::size_t i = 0; i < map.offsets().size(); ++i)
+    face_of[i] = nearest_face(map.offsets()[i], map.lengths()[i], faces);
+  const std::optional<Plane> a = fit_plane(map, face_of, 0);
+  if (!a) return std::nullopt;
+  const std::optional<Plane> b = fit_plane(map, face_of, 1);
+  if (!b) return std::nullopt;
   const double cosine = dot(a->normal, b->normal);
   const double squared_sine = 1 - cosine * cosine;
   if (squared_sine < smallest_squared_sine) return std::nullopt;

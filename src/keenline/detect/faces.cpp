@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -22,7 +23,7 @@ constexpr double smallest_birth = 1 * angle_units_per_degree;
 constexpr double least_tolerance_deg = 12;
 /// Cosines of the sectors of Face::ends and Face::is_half. On a lattice sectors are 90° inside a face and
 /// 135° or more on its edge; those of random points inside a face are rarely above 100°.
-constexpr double end_cosine = -0.42261826174069944;   // 115°, see may_leave_wide_sector()
+constexpr double end_cosine = -0.42261826174069944;   // 115°, see Round
 constexpr double half_cosine = -0.93969262078590838;  // 160°
 
 /// sin, for 0 … 45 degrees, to 1e-6: by + and * only, for the same bits on every CPU.
@@ -32,23 +33,12 @@ double sine_of(double degrees) {
   return x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42)));
 }
 
-/// Counter-clockwise from the positive x axis, without angles.
-bool turns_before(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  const auto lower_half = [](const std::array<double, 2>& v) { return v[1] < 0 || (v[1] == 0 && v[0] < 0); };
-  if (lower_half(a) != lower_half(b)) return lower_half(b);
-  return a[0] * b[1] - a[1] * b[0] > 0;
-}
-
-/// Cosine of the sector from a counter-clockwise to b; -1 from 180 degrees on.
-double sector_cosine(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  if (a[0] * b[1] - a[1] * b[0] < 0) return -1;
-  const double lengths = std::sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]));
-  return (a[0] * b[0] + a[1] * b[1]) / lengths;
-}
+/// In the plane of a face, from the point.
+using Direction = std::array<double, 2>;
 
 /// Which of sixteen equal sectors a direction lies in, counter-clockwise from the positive x axis. Without
 /// branches, of which no CPU could guess one.
-unsigned sixteenth_of_turn(const std::array<double, 2>& direction) {
+unsigned sixteenth_of_turn(const Direction& direction) {
   constexpr double tangent = 0.41421356237309503;  // of 22.5 degrees
   const double x = std::abs(direction[0]);
   const double y = std::abs(direction[1]);
@@ -59,51 +49,86 @@ unsigned sixteenth_of_turn(const std::array<double, 2>& direction) {
   return 8 * is_below + 4 * is_odd + (from_axis ^ (3 * is_odd));
 }
 
-/// False only if no sector of more than 112.5 degrees is empty: one would hold four whole sixteenths.
-bool may_leave_wide_sector(std::span<const std::array<double, 2>> directions) {
-  std::uint32_t taken = 0;
-  for (const auto& direction : directions) taken |= 1U << sixteenth_of_turn(direction);
-  const std::uint32_t empty = ~(taken | taken << 16);  // twice around
-  return (empty & empty >> 1 & empty >> 2 & empty >> 3) != 0;
+double cross_product(const Direction& a, const Direction& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Cosine of the sector from a counter-clockwise to b; -1 from 180 degrees on.
+double sector_cosine(const Direction& a, const Direction& b) {
+  if (cross_product(a, b) < 0) return -1;
+  const double lengths = std::sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]));
+  return (a[0] * b[0] + a[1] * b[1]) / lengths;
 }
 
-using Directions = std::array<std::array<double, 2>, 255>;
-
-/// In the plane across the normal, the directions to the neighbours that are no further off it than so many
-/// degrees.
-std::span<std::array<double, 2>> directions_on_plane(const GaussMap& map, const Point& normal,
-                                                     double tolerance_deg, Directions& room) {
-  const double tolerance = sine_of(tolerance_deg);
-  const std::size_t smallest = std::abs(normal[0]) < 0.6 ? 0 : 1;
-  Point axis{0, 0, 0};
-  axis[smallest] = 1;
-  const Point u = unit(cross(normal, axis));
-  const Point v = cross(normal, u);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < map.offsets().size(); ++i) {
-    const Point& offset = map.offsets()[i];
-    if (std::abs(dot(offset, normal)) <= tolerance * map.lengths()[i])
-      room[count++] = {dot(offset, u), dot(offset, v)};
+/// The neighbours on a plane through the point, as one sees them from there.
+class Round {
+ public:
+  /// Those that are less than so many degrees off the plane.
+  Round(const GaussMap& map, const Point& normal, double tolerance_deg) {
+    const double tolerance = sine_of(tolerance_deg);
+    const std::size_t smallest = std::abs(normal[0]) < 0.6 ? 0 : 1;
+    Point axis{0, 0, 0};
+    axis[smallest] = 1;
+    const Point u = unit(cross(normal, axis));
+    const Point v = cross(normal, u);
+    for (std::size_t i = 0; i < map.offsets().size(); ++i) {
+      const Point& offset = map.offsets()[i];
+      if (std::abs(dot(offset, normal)) >= tolerance * map.lengths()[i]) continue;
+      directions_[count_] = {dot(offset, u), dot(offset, v)};
+      const unsigned sixteenth = sixteenth_of_turn(directions_[count_]);
+      sixteenths_[count_++] = static_cast<std::uint8_t>(sixteenth);
+      taken_ |= 0x10001U << sixteenth;
+    }
   }
-  return std::span(room).first(count);
-}
 
-/// Cosine of the widest sector that the neighbours on the face leave empty; -1 from 180 degrees on, 0 where
-/// it is no wider than 112.5.
+  /// False only if no sector of more than 112.5 degrees is empty: one would hold four whole sixteenths.
+  [[nodiscard]] bool may_have_wide_sector() const {
+    const std::uint32_t empty = ~taken_;
+    return (empty & empty >> 1 & empty >> 2 & empty >> 3) != 0;
+  }
+
+  /// Cosine of the widest empty sector; -1 from 180 degrees on, 0 or what a narrower one has where it is no
+  /// wider than 112.5.
+  [[nodiscard]] double widest_sector_cosine() const {
+    if (count_ < 2) return -1;
+    double cosine = 0;
+    for (unsigned before = 0; before < 16; ++before) {
+      if ((taken_ >> before & 1U) == 0) continue;
+      const auto empty = static_cast<unsigned>(std::countr_zero(taken_ >> (before + 1)));
+      if (empty >= 8) return -1;
+      if (empty >= 4)
+        cosine = std::min(cosine, sector_cosine(last_of(before), first_of((before + 1 + empty) % 16)));
+    }
+    return cosine;
+  }
+
+ private:
+  /// The last in counter-clockwise order of those in a sixteenth.
+  [[nodiscard]] const Direction& last_of(unsigned sixteenth) const {
+    return extreme_of(sixteenth, [](const Direction& a, const Direction& b) { return cross_product(a, b); });
+  }
+  [[nodiscard]] const Direction& first_of(unsigned sixteenth) const {
+    return extreme_of(sixteenth, [](const Direction& a, const Direction& b) { return cross_product(b, a); });
+  }
+  template <typename Turn>
+  [[nodiscard]] const Direction& extreme_of(unsigned sixteenth, Turn turn) const {
+    const Direction* extreme = nullptr;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (sixteenths_[i] == sixteenth && (extreme == nullptr || turn(*extreme, directions_[i]) > 0))
+        extreme = &directions_[i];
+    return *extreme;
+  }
+
+  std::array<Direction, 255> directions_;
+  std::array<std::uint8_t, 255> sixteenths_;
+  std::size_t count_ = 0;
+  std::uint32_t taken_ = 0;  // sixteenths that are not empty, twice around
+};
+
+/// Of the sector that the neighbours on the face leave empty, see Round.
 double widest_sector_cosine(const GaussMap& map, const Face& face) {
   // On the face lies what is no further off its plane than the face scatters, and at least 12 degrees: a
   // curved face falls away from its plane, and the smallest dihedral angles of interest are larger.
   const double tolerance_deg = std::clamp(face.birth / angle_units_per_degree + 5, least_tolerance_deg, 40.0);
-  Directions room;
-  const auto sectors = directions_on_plane(map, face.normal, tolerance_deg, room);
-  if (sectors.size() < 2) return -1;
-  if (!may_leave_wide_sector(sectors)) return 0;  // most points: spares them the sorting
-  std::sort(sectors.begin(), sectors.end(), turns_before);
-  if (!turns_before(sectors.front(), sectors.back())) return -1;  // all in one direction
-  double cosine = sector_cosine(sectors.back(), sectors.front());
-  for (std::size_t i = 0; i + 1 < sectors.size(); ++i)
-    cosine = std::min(cosine, sector_cosine(sectors[i], sectors[i + 1]));
-  return cosine;
+  return Round(map, face.normal, tolerance_deg).widest_sector_cosine();
 }
 
 /// Where the lines gather that the face was born of. They come first in the list that their cluster begins.
@@ -174,7 +199,10 @@ void find_faces(const GaussMap& map, int min_cluster, double persistence, FaceWo
   auto& born = workspace.born;
   born.erase(std::remove_if(born.begin(), born.end(), [](const auto& birth) { return birth.death == 0; }),
              born.end());
-  std::stable_sort(born.begin(), born.end(), [](const auto& a, const auto& b) { return a.death > b.death; });
+  // The usual one needs no memory for that.
+  if (born.size() > 1)
+    std::stable_sort(born.begin(), born.end(),
+                     [](const auto& a, const auto& b) { return a.death > b.death; });
   faces.clear();
   for (const FaceWorkspace::Birth& birth : born) {
     const Point normal =
@@ -191,11 +219,9 @@ bool lone_face_is_half(const GaussMap& map) {
   // than 12 off the face's, and seen on the one plane a sector is a few degrees wider than on the other, not
   // the 47 that half_cosine asks for.
   const kernels::Lines lines = map.lines();
-  Directions room;
   const Point line{static_cast<double>(lines.x[0]), static_cast<double>(lines.y[0]),
                    static_cast<double>(lines.z[0])};
-  const auto sectors = directions_on_plane(map, line, least_tolerance_deg - 7, room);
-  if (!may_leave_wide_sector(sectors)) return false;
+  if (!Round(map, line, least_tolerance_deg - 7).may_have_wide_sector()) return false;
   Face face{map.common_direction(), 0};
   look_for_ends(map, face);
   return face.is_half;

@@ -70,47 +70,80 @@ bool supports(const Cloud& cloud, std::size_t point, Kind kind, std::uint32_t ne
          runs_along(way, neighbor_kind, cloud.directions[neighbor]);
 }
 
-bool ever_needs_support(const LabelSpectrum& spectrum, std::size_t point) {
-  return std::any_of(spectrum.kind.begin() + static_cast<std::ptrdiff_t>(spectrum.offsets[point]),
-                     spectrum.kind.begin() + static_cast<std::ptrdiff_t>(spectrum.offsets[point + 1]),
-                     needs_support);
+/// Support that comes or goes at a sensitivity.
+struct Change {
+  std::uint16_t at;
+  int support;
+};
+
+/// Steps of a point, of which those that change nothing are left out.
+class Filtered {
+ public:
+  explicit Filtered(Steps& steps) : steps_(steps), before_(steps.from.size()) {}
+
+  void append(std::uint16_t at, Kind kind, std::uint8_t clusters) {
+    if (count() > 0 && steps_.kind.back() == kind && steps_.clusters.back() == clusters) return;
+    steps_.append(at, kind, clusters);
+  }
+  [[nodiscard]] std::size_t count() const { return steps_.from.size() - before_; }
+
+ private:
+  Steps& steps_;
+  std::size_t before_;
+};
+
+/// A step of a point from one sensitivity to another, without the second.
+struct Range {
+  std::uint32_t from;
+  std::uint32_t to;
+};
+
+Range range_of(const LabelSpectrum& spectrum, std::size_t point, std::size_t step) {
+  constexpr std::uint32_t beyond_all = 0x10000;
+  return {spectrum.from[step], step + 1 < spectrum.offsets[point + 1] ? spectrum.from[step + 1] : beyond_all};
+}
+
+/// Adds where a neighbour begins and ends to support a step of the point.
+void add_changes(const Cloud& cloud, std::size_t point, Kind kind, const Range& range, std::uint32_t neighbor,
+                 std::vector<Change>& changes) {
+  const LabelSpectrum& spectrum = cloud.spectrum;
+  for (std::size_t s = spectrum.offsets[neighbor]; s < spectrum.offsets[neighbor + 1]; ++s) {
+    const Range other = range_of(spectrum, neighbor, s);
+    if (other.from >= range.to) return;
+    if (other.to <= range.from || !supports(cloud, point, kind, neighbor, spectrum.kind[s])) continue;
+    changes.push_back({static_cast<std::uint16_t>(std::max(range.from, other.from)), 1});
+    if (other.to < range.to) changes.push_back({static_cast<std::uint16_t>(other.to), -1});
+  }
 }
 
 /// Appends the filtered steps of one point; `changes` is working memory.
-std::size_t filter(const Cloud& cloud, std::size_t point, std::vector<std::uint16_t>& changes, Steps& steps) {
+std::size_t filter(const Cloud& cloud, std::size_t point, std::vector<Change>& changes, Steps& steps) {
   const LabelSpectrum& spectrum = cloud.spectrum;
   const auto all_neighbors = cloud.neighborhoods.of(point);
   const auto neighbors = all_neighbors.first(std::min(all_neighbors.size(), neighbors_that_support));
-  const std::size_t first = spectrum.offsets[point];
-  const std::size_t last = spectrum.offsets[point + 1];
-  const std::size_t before = steps.from.size();
-  if (!ever_needs_support(spectrum, point)) {
-    for (std::size_t s = first; s < last; ++s)
-      steps.append(spectrum.from[s], spectrum.kind[s], spectrum.clusters[s]);
-    return last - first;
-  }
-  changes.assign(spectrum.from.begin() + static_cast<std::ptrdiff_t>(first),
-                 spectrum.from.begin() + static_cast<std::ptrdiff_t>(last));
-  for (const std::uint32_t q : neighbors)
-    for (std::size_t s = spectrum.offsets[q]; s < spectrum.offsets[q + 1]; ++s)
-      changes.push_back(spectrum.from[s]);
-  std::sort(changes.begin(), changes.end());
-  changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
-  for (const std::uint16_t at : changes) {
-    const std::size_t own = step_at(spectrum, point, at);
-    Kind kind = spectrum.kind[own];
-    if (needs_support(kind)) {
-      const auto support = std::count_if(neighbors.begin(), neighbors.end(), [&](std::uint32_t q) {
-        return supports(cloud, point, kind, q, spectrum.kind[step_at(spectrum, q, at)]);
-      });
-      // A border is a lone face.
-      if (support < cloud.min_support) kind = kind == Kind::Border ? Kind::Flat : Kind::Curved;
+  Filtered filtered(steps);
+  for (std::size_t s = spectrum.offsets[point]; s < spectrum.offsets[point + 1]; ++s) {
+    const Kind kind = spectrum.kind[s];
+    const std::uint8_t clusters = spectrum.clusters[s];
+    if (!needs_support(kind)) {
+      filtered.append(spectrum.from[s], kind, clusters);
+      continue;
     }
-    const bool same = steps.from.size() > before && steps.kind.back() == kind &&
-                      steps.clusters.back() == spectrum.clusters[own];
-    if (!same) steps.append(at, kind, spectrum.clusters[own]);
+    changes.clear();
+    changes.push_back({spectrum.from[s], 0});
+    for (const std::uint32_t q : neighbors)
+      add_changes(cloud, point, kind, range_of(spectrum, point, s), q, changes);
+    std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
+    int support = 0;
+    for (std::size_t c = 0; c < changes.size(); ++c) {
+      support += changes[c].support;
+      if (c + 1 < changes.size() && changes[c + 1].at == changes[c].at) continue;
+      // A border is a lone face.
+      const Kind alone = kind == Kind::Border ? Kind::Flat : Kind::Curved;
+      filtered.append(changes[c].at, support < cloud.min_support ? alone : kind, clusters);
+    }
   }
-  return steps.from.size() - before;
+  return filtered.count();
 }
 
 }  // namespace
@@ -132,7 +165,7 @@ LabelSpectrum without_isolated(const LabelSpectrum& spectrum, const Neighborhood
   result.offsets.resize(count + 1);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, blocks, 1), [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<std::uint16_t> changes;
+        std::vector<Change> changes;
         for (std::size_t block = range.begin(); block < range.end(); ++block) {
           progress.check();
           for (std::size_t i = block * block_size; i < std::min(count, (block + 1) * block_size); ++i) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t smallest_count = 12;
 /// Length of the mean direction to the neighbours. On a plane it is 0.2 by chance; at an apex the cosine of
 /// half the opening, and still a third where the nearest sample of a cone of 120 degrees is far off its apex.
-constexpr double smallest_mean_direction = 0.25;
+constexpr double smallest_mean_direction = 0.3;
 /// How far the apex may lie from its nearest sample, in distances to the farthest neighbour: on cones, 0.84
 /// at most in hundreds. Farther off, points on both sides may each seem the nearest.
 constexpr double largest_apex_distance = 0.85;

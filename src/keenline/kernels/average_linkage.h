@@ -21,7 +21,7 @@ struct LinkageWorkspace {
     std::uint32_t name;  // smallest item of the cluster
     std::uint32_t size;
   };
-  struct Cluster {
+  struct alignas(32) Cluster {   // a power of two: found without a product
     std::uint32_t size;          // 0 once it has been merged into another
     std::uint32_t birth, seen;   // number of the merge that made it, and of the last that its row knows of
     std::uint32_t older, newer;  // clusters made of others, in order of their births

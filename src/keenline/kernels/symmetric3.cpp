@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace keenline::kernels {
 namespace {
@@ -14,8 +15,13 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q, double negligible) {
   if (std::abs(a[p][q]) <= negligible) return;
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  const double t = (theta >= 0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(1 + theta * theta));
-  const double c = 1 / std::sqrt(1 + t * t);
+  const double sign = theta >= 0 ? 1.0 : -1.0;
+  double t = sign / (2 * std::abs(theta));
+  double c = 1;
+  if (std::abs(theta) < 0x1p27) {  // else rounding makes that of it, too
+    t = sign / (std::abs(theta) + std::sqrt(1 + theta * theta));
+    c = 1 / std::sqrt(1 + t * t);
+  }
   const double s = t * c;
   for (std::size_t k = 0; k < 3; ++k) {
     const double kp = a[k][p];
@@ -59,8 +65,12 @@ Eigen3 eigen_decomposition(const Symmetric3& matrix) {
     rotate(a, v, 1, 2, negligible);
   }
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return a[i][i] > a[j][j]; });
+  const auto put_in_order = [&](std::size_t& i, std::size_t& j) {
+    if (a[i][i] < a[j][j]) std::swap(i, j);
+  };
+  put_in_order(order[0], order[1]);
+  put_in_order(order[1], order[2]);
+  put_in_order(order[0], order[1]);
   Eigen3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     result.values[i] = a[order[i]][order[i]];
