@@ -30,7 +30,8 @@ PYTHON
 }
 
 for shape in cube icosahedron cylinder sphere; do measure "$shape" 0 --min-sine 1e-6 "$@"; done
-measure cube 0.05 --min-sine 1e-6 "$@"
-measure cube 0.05 --min-sine 0.3 "$@"
-measure cube 0.05 --min-sine 0.3 --neighbors 24 "$@"
-measure sphere 0.05 --min-sine 0.3 "$@"
+for shape in cube sphere; do
+  measure "$shape" 0.05 "$@"
+  measure "$shape" 0.05 --triangles 32385 --min-sine 0.3 --neighbors 16 "$@"
+  measure "$shape" 0.05 --triangles 32385 --min-sine 0.3 --neighbors 24 "$@"
+done

@@ -16,25 +16,29 @@
 #include "keenline/kernels/line_angles.h"
 #include "keenline/kernels/target.h"
 #include "keenline/kernels/triangle_lines.h"
+#include "keenline/kernels/triangle_shapes.h"
 
 namespace {
 
 using namespace keenline::kernels;
 
-/// The Gauss map of a point on an edge of 90 degrees, with noise of a tenth of the distance to its 16
+/// The Gauss map of a point on an edge of 90 degrees, with noise of a tenth of the distance to its
 /// neighbours, and room for all that is made of it.
 struct Point {
   static constexpr int neighbors = 16;
-  std::array<double, std::size_t{3} * neighbors> offsets;
-  std::array<double, neighbors> lengths;
-  std::array<float, 120 + line_slack> x, y, z;
+  static constexpr int more_neighbors = 28;  // of noisy clouds
+  static constexpr std::size_t triangles = 378;
+  std::array<double, std::size_t{3} * more_neighbors> offsets;
+  std::array<double, more_neighbors> lengths;
+  std::array<std::uint8_t, triangles + shape_slack> shapes;
+  std::array<float, triangles + line_slack> x, y, z;
   int count = 0;
 
   explicit Point(unsigned seed) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<double> across(-1, 1);
     std::normal_distribution<double> noise(0, 0.1);
-    for (std::size_t i = 0; i < neighbors; ++i) {
+    for (std::size_t i = 0; i < more_neighbors; ++i) {
       const double u = across(generator);
       double* const a = offsets.data() + 3 * i;
       a[0] = (u > 0 ? u : 0) + noise(generator);
@@ -46,6 +50,13 @@ struct Point {
   }
   void find_lines() {
     count = triangle_lines(offsets.data(), lengths.data(), neighbors, 0.001, x.data(), y.data(), z.data());
+  }
+  /// Of the 40 best shaped triangles of more neighbours.
+  void find_best_lines() {
+    triangle_shapes(offsets.data(), more_neighbors, shapes.data());
+    const std::uint8_t least = shape_of_best(shapes.data(), triangles, 40);
+    count = triangle_lines(offsets.data(), lengths.data(), more_neighbors, 0.001, shapes.data(), least,
+                           x.data(), y.data(), z.data());
   }
   [[nodiscard]] Lines lines() const { return {x.data(), y.data(), z.data(), count}; }
 };
@@ -94,6 +105,18 @@ void measure_all(Point& point, Dendrogram& dendrogram) {
   measure_linkage(point, dendrogram);
 }
 
+void measure_best_lines(Point& point, Dendrogram& /*unused*/) {
+  Point some = point;
+  some.find_best_lines();
+  benchmark::DoNotOptimize(some.count);
+}
+
+void measure_best(Point& point, Dendrogram& dendrogram) {
+  Point some = point;
+  some.find_best_lines();
+  measure_linkage(some, dendrogram);
+}
+
 void measure_all_within(Point& point, Dendrogram& /*unused*/) {
   benchmark::DoNotOptimize(all_within(point.lines(), 1000));
 }
@@ -124,6 +147,8 @@ int main(int argc, char** argv) {
   add("line_angles+average_linkage", measure_linkage);
   add("line_angles+average_linkage of 60 lines", measure_some<60>);
   add("whole_point", measure_all);
+  add("triangle_lines of the best 40", measure_best_lines);
+  add("whole_point of the best 40", measure_best);
   add("all_within", measure_all_within);
   benchmark::AddCustomContext("best target", std::string(target()));
   benchmark::Initialize(&argc, argv);

@@ -73,6 +73,41 @@ TEST(Crease, NeighboursOfAThirdFaceDoNotCount) {
   EXPECT_FALSE(first_crease(map, std::array{face(0, 0, 1), face(1, 0, 0), face(1, 0, 0)}));
 }
 
+/// Lattices of `x`, `y` and `z` rows of three points on the coordinate planes across these axes, seen from
+/// where they meet.
+GaussMap corner_of(int x, int y, int z) {
+  std::vector<Point> positions{{0, 0, 0}};
+  for (int i = 1; i <= 3; ++i) {
+    for (int row = 1; row <= x; ++row) positions.push_back({0, 1.0 * row, 1.0 * i});
+    for (int row = 1; row <= y; ++row) positions.push_back({1.0 * row, 0, 1.0 * i});
+    for (int row = 1; row <= z; ++row) positions.push_back({1.0 * row, 1.0 * i, 0});
+  }
+  std::vector<std::uint32_t> neighbors(positions.size() - 1);
+  std::iota(neighbors.begin(), neighbors.end(), 1U);
+  GaussMap map(0.001, no_progress());
+  map.collect(positions, positions[0], neighbors);
+  return map;
+}
+
+TEST(Corner, IsWhereThreeFacesWithNeighboursMeet) {
+  const std::array faces{face(1, 0, 0), face(0, 1, 0), face(0, 0, 1)};
+  EXPECT_TRUE(make_corner(corner_of(2, 2, 2), faces));
+  EXPECT_TRUE(make_corner(corner_of(3, 3, 1), faces));
+  // An edge: nobody lies on the third.
+  EXPECT_FALSE(make_corner(corner_of(3, 3, 0), faces));
+  EXPECT_FALSE(make_corner(corner_of(2, 2, 2), std::span(faces).first(2)));
+  const double root = std::sqrt(0.5);
+  const std::array between{face(1, 0, 0), face(0, 1, 0), face(root, root, 0), face(0, 0, 1)};
+  EXPECT_TRUE(make_corner(corner_of(2, 2, 2), between));
+  EXPECT_FALSE(make_corner(corner_of(3, 3, 0), between));
+}
+
+TEST(Corner, TakesNormalsThatSpanSpace) {
+  const double root = std::sqrt(0.5);
+  const auto map = corner_of(3, 3, 3);
+  EXPECT_FALSE(make_corner(map, std::array{face(1, 0, 0), face(0, 1, 0), face(root, root, 0)}));
+}
+
 TEST(Crease, APointIsBesideItWhereOthersAreNearer) {
   const std::array faces{face(0, 0, 1), face(1, 0, 0)};
   EXPECT_TRUE(is_beside_crease(fold_seen_from(0.8, 90, {0.1, 1.1, 2.1}), faces));

@@ -1,5 +1,7 @@
 #include "keenline/kernels/symmetric3.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -46,6 +48,38 @@ TEST(Symmetric3, FindsTheAxisOfAPlaneSNormals) {
   const Eigen3 found = eigen_decomposition({0, 0, 0, 0, 0, 5});
   EXPECT_EQ(found.values[0], 5);
   EXPECT_EQ(std::abs(found.vectors[0][2]), 1);
+}
+
+TEST(Symmetric3, LargestEigenvectorIsTheFirstOfAll) {
+  std::mt19937 generator(2);
+  const auto number = [&] { return static_cast<double>(generator()) / 2147483648.0 - 1; };
+  for (int i = 0; i < 1000; ++i) {
+    // Of lines that gather more and more closely.
+    Symmetric3 m;
+    const double scatter = std::pow(0.98, i);
+    const std::array<double, 3> axis{number(), number(), number()};
+    for (int line = 0; line < 10; ++line)
+      add_square(
+          m, {axis[0] + scatter * number(), axis[1] + scatter * number(), axis[2] + scatter * number()}, 1);
+    const Eigen3 all = eigen_decomposition(m);
+    const auto found = largest_eigenvector(m);
+    double cosine = 0;
+    for (std::size_t k = 0; k < 3; ++k) cosine += found[k] * all.vectors[0][k];
+    double off = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      off = std::max(off, std::abs(found[k] - std::copysign(all.vectors[0][k], cosine * all.vectors[0][k])));
+    // The nearer the values, the less certain the vector.
+    EXPECT_LE(off, 1e-14 * all.values[0] / (all.values[0] - all.values[1])) << i;
+  }
+}
+
+TEST(Symmetric3, LargestEigenvectorOfSpecialMatrices) {
+  EXPECT_EQ(largest_eigenvector({0, 0, 0, 0, 0, 5}), (std::array<double, 3>{0, 0, 1}));
+  EXPECT_EQ(largest_eigenvector({0, 0, 0, 1e-200, 0, 0}), (std::array<double, 3>{0, 1, 0}));
+  EXPECT_EQ(largest_eigenvector({1e300, 0, 0, 0, 0, 0}), (std::array<double, 3>{1, 0, 0}));
+  // None is largest.
+  for (const Symmetric3& m : {Symmetric3{}, Symmetric3{1, 0, 0, 1, 0, 1}, Symmetric3{1, 0, 0, 1, 0, 0}})
+    EXPECT_EQ(largest_eigenvector(m), eigen_decomposition(m).vectors[0]);
 }
 
 }  // namespace

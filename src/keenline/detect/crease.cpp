@@ -6,6 +6,7 @@
 
 #include "keenline/detect/faces.h"
 #include "keenline/detect/gauss_map.h"
+#include "keenline/detect/span_space.h"
 #include "keenline/kernels/line_angles.h"
 #include "keenline/kernels/portable_math.h"
 #include "keenline/kernels/symmetric3.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr double largest_sine_off_face = 0.64278760968653933;  // 40 degrees
 constexpr double smallest_squared_sine = 0.01;                 // of the angle between the planes: 6 degrees
 constexpr double smallest_flatness = 0.001;  // of variances: a row of points is in no plane of its own
+constexpr std::size_t smallest_count_on_face = 3;
 constexpr double birth_through_point = 4 * kernels::angle_units_per_degree;
 
 struct Plane {
@@ -38,11 +40,18 @@ std::size_t nearest_face(const Point& q, double length, std::span<const Face> fa
   return nearest;
 }
 
-/// For every neighbour the index of its face.
-using Memberships = std::array<std::size_t, 255>;
+using Room = std::array<std::size_t, 255>;
+
+/// For every neighbour the index of its face, see nearest_face().
+std::span<const std::size_t> faces_of_neighbors(const GaussMap& map, std::span<const Face> faces,
+                                                Room& room) {
+  const std::size_t count = map.offsets().size();
+  for (std::size_t i = 0; i < count; ++i) room[i] = nearest_face(map.offsets()[i], map.lengths()[i], faces);
+  return std::span(room).first(count);
+}
 
 /// The plane of the neighbours that belong to one of the faces.
-std::optional<Plane> fit_plane(const GaussMap& map, const Memberships& face_of, std::size_t face) {
+std::optional<Plane> fit_plane(const GaussMap& map, std::span<const std::size_t> face_of, std::size_t face) {
   std::array<Point, 255> on_face;
   std::size_t count = 0;
   Point mean{0, 0, 0};
@@ -52,7 +61,7 @@ std::optional<Plane> fit_plane(const GaussMap& map, const Memberships& face_of, 
     on_face[count++] = q;
     for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += q[axis];
   }
-  if (count < 3) return std::nullopt;
+  if (count < smallest_count_on_face) return std::nullopt;
   for (double& coordinate : mean) coordinate /= static_cast<double>(count);
   kernels::Symmetric3 tensor;
   for (std::size_t i = 0; i < count; ++i)
@@ -74,9 +83,8 @@ double spacing_of(const GaussMap& map) {
 }  // namespace
 
 std::optional<Crease> first_crease(const GaussMap& map, std::span<const Face> faces) {
-  Memberships face_of;
-  for (std::size_t i = 0; i < map.offsets().size(); ++i)
-    face_of[i] = nearest_face(map.offsets()[i], map.lengths()[i], faces);
+  Room room;
+  const auto face_of = faces_of_neighbors(map, faces, room);
   const std::optional<Plane> a = fit_plane(map, face_of, 0);
   if (!a) return std::nullopt;
   const std::optional<Plane> b = fit_plane(map, face_of, 1);
@@ -95,6 +103,17 @@ std::optional<Crease> first_crease(const GaussMap& map, std::span<const Face> fa
   crease.distance = length(crease.foot);
   crease.scatter = std::max(a->scatter, b->scatter);
   return crease;
+}
+
+bool make_corner(const GaussMap& map, std::span<const Face> faces) {
+  if (faces.size() < 3) return false;
+  std::array<std::size_t, 256> neighbors{};  // of each face, then those of none
+  Room room;
+  for (const std::size_t face : faces_of_neighbors(map, faces, room)) ++neighbors[face];
+  kernels::Symmetric3 squares;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (neighbors[f] >= smallest_count_on_face) kernels::add_square(squares, faces[f].normal, 1);
+  return normals_span_space(squares);
 }
 
 bool is_beside_crease(const GaussMap& map, std::span<const Face> faces) {

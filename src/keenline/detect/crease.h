@@ -32,4 +32,9 @@ struct Crease {
 /// faces.size() >= 2
 [[nodiscard]] bool is_beside_crease(const GaussMap& map, std::span<const Face> faces);
 
+/// Do the faces meet in a corner: do three or more have normals that span space, and at least three of the
+/// neighbours, by the planes through the point, each? The lines of triangles across an edge gather in one
+/// more cluster often enough, but those lie on no face of their own. \pre faces.size() <= 255
+[[nodiscard]] bool make_corner(const GaussMap& map, std::span<const Face> faces);
+
 }  // namespace keenline

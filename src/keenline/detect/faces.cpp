@@ -70,12 +70,15 @@ class Round {
     const Point u = unit(cross(normal, axis));
     const Point v = cross(normal, u);
     for (std::size_t i = 0; i < map.offsets().size(); ++i) {
+      // Without branches, as above: those that are too far off are written over.
       const Point& offset = map.offsets()[i];
-      if (std::abs(dot(offset, normal)) >= tolerance * map.lengths()[i]) continue;
+      const auto is_near =
+          static_cast<unsigned>(std::abs(dot(offset, normal)) < tolerance * map.lengths()[i]);
       directions_[count_] = {dot(offset, u), dot(offset, v)};
       const unsigned sixteenth = sixteenth_of_turn(directions_[count_]);
-      sixteenths_[count_++] = static_cast<std::uint8_t>(sixteenth);
-      taken_ |= 0x10001U << sixteenth;
+      sixteenths_[count_] = static_cast<std::uint8_t>(sixteenth);
+      taken_ |= is_near * 0x10001U << sixteenth;
+      count_ += is_near;
     }
   }
 
@@ -139,7 +142,7 @@ Point direction_of_birth(const kernels::Lines& lines, const FaceWorkspace& works
   for (std::uint32_t i = 0; i < birth.lines; ++i, line = workspace.clusters[line].next)
     kernels::add_outer_product(tensor, static_cast<double>(lines.x[line]), static_cast<double>(lines.y[line]),
                                static_cast<double>(lines.z[line]));
-  return kernels::eigen_decomposition(tensor).vectors[0];
+  return kernels::largest_eigenvector(tensor);
 }
 
 void look_for_ends(const GaussMap& map, Face& face) {

@@ -102,7 +102,7 @@ Point GaussMap::common_direction() const {
     add(i + 1, other);
   }
   if (i < x_.size()) add(i, tensor);
-  return kernels::eigen_decomposition(kernels::sum(tensor, other)).vectors[0];
+  return kernels::largest_eigenvector(kernels::sum(tensor, other));
 }
 
 std::uint64_t GaussMap::memory(int neighbors) {

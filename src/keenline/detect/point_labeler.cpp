@@ -6,9 +6,7 @@
 #include "keenline/cloud.h"
 #include "keenline/detect/crease.h"
 #include "keenline/detect/peak.h"
-#include "keenline/detect/span_space.h"
 #include "keenline/kernels/line_angles.h"
-#include "keenline/kernels/symmetric3.h"
 #include "keenline/vectors.h"
 
 namespace keenline {
@@ -23,12 +21,6 @@ constexpr double smallest_angle = 3 * angle_units_per_degree;
 /// The smallest sensitivity that reaches a height: merges happen at heights up to the sensitivity.
 std::uint16_t sensitivity_reaching(double height) {
   return static_cast<std::uint16_t>(std::ceil(std::min(height, double{kernels::right_angle})));
-}
-
-bool span_space(std::span<const Face> faces) {
-  kernels::Symmetric3 tensor;
-  for (const Face& face : faces) kernels::add_square(tensor, face.normal, 1);
-  return normals_span_space(tensor);
 }
 
 }  // namespace
@@ -193,7 +185,7 @@ Kind PointLabeler::kind_of(std::span<const Face> faces, std::uint16_t sensitivit
   if (faces.empty() || faces.size() > static_cast<std::size_t>(max_clusters_)) return Kind::Curved;
   const auto ends = [](const Face& face) { return face.ends; };
   if (options_.thin && (is_beside_ || !std::all_of(faces.begin(), faces.end(), ends))) return Kind::Curved;
-  return faces.size() > 2 && span_space(faces) ? Kind::Corner : Kind::Edge;
+  return make_corner(map_, faces) ? Kind::Corner : Kind::Edge;
 }
 
 /// Steps that change nothing are left out; of several from one sensitivity the last counts.

@@ -42,6 +42,28 @@ void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q, double negligibl
   a[p][q] = a[q][p] = 0;
 }
 
+double trace(const Symmetric3& matrix) { return matrix.xx + matrix.yy + matrix.zz; }
+
+Symmetric3 scaled(double factor, const Symmetric3& m) {
+  return {factor * m.xx, factor * m.xy, factor * m.xz, factor * m.yy, factor * m.yz, factor * m.zz};
+}
+
+Symmetric3 square(const Symmetric3& m) {
+  return {m.xx * m.xx + m.xy * m.xy + m.xz * m.xz, m.xx * m.xy + m.xy * m.yy + m.xz * m.yz,
+          m.xx * m.xz + m.xy * m.yz + m.xz * m.zz, m.xy * m.xy + m.yy * m.yy + m.yz * m.yz,
+          m.xy * m.xz + m.yy * m.yz + m.yz * m.zz, m.xz * m.xz + m.yz * m.yz + m.zz * m.zz};
+}
+
+/// Its longest column, as a unit vector.
+std::array<double, 3> longest_column(const Symmetric3& m) {
+  std::array<double, 3> column{m.xx, m.xy, m.xz};
+  if (m.yy > m.xx && m.yy >= m.zz) column = {m.xy, m.yy, m.yz};
+  else if (m.zz > m.xx) column = {m.xz, m.yz, m.zz};
+  const double length = std::sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
+  for (double& c : column) c /= length;
+  return column;
+}
+
 }  // namespace
 
 Eigen3 eigen_decomposition(const Symmetric3& matrix) {
@@ -77,6 +99,22 @@ Eigen3 eigen_decomposition(const Symmetric3& matrix) {
     for (std::size_t k = 0; k < 3; ++k) result.vectors[i][k] = v[k][order[i]];
   }
   return result;
+}
+
+std::array<double, 3> largest_eigenvector(const Symmetric3& matrix) {
+  const double size = trace(matrix);
+  if (!(size > 0x1p-500 && size < 0x1p500)) return eigen_decomposition(matrix).vectors[0];
+  Symmetric3 power = scaled(1 / size, matrix);
+  // The matrix to the power of 64, where values of half the largest have come down to rounding.
+  for (int squarings = 0; squarings < 6; ++squarings) {
+    power = square(power);
+    // The sum of the squares of the shares that the values had: 1 if there was but one, and now the others'
+    // are squares of what was missing.
+    const double squares = trace(power);
+    power = scaled(1 / squares, power);
+    if (squares > 1 - 0x1p-28) return longest_column(power);
+  }
+  return eigen_decomposition(matrix).vectors[0];
 }
 
 }  // namespace keenline::kernels

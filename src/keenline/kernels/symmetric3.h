@@ -39,4 +39,8 @@ struct Eigen3 {
 /// Accurate to a few units in the last place of the largest entry. \pre all entries are finite
 [[nodiscard]] Eigen3 eigen_decomposition(const Symmetric3& matrix);
 
+/// The first of those vectors alone: a fraction of the time where its value is well above the others. By
+/// squaring the matrix until its columns are multiples of the vector. \pre no value is negative
+[[nodiscard]] std::array<double, 3> largest_eigenvector(const Symmetric3& matrix);
+
 }  // namespace keenline::kernels
