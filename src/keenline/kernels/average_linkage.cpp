@@ -108,6 +108,23 @@ class TwoSmallest {
   Word second_ = hn::Set(Words(), none);
 };
 
+/// Calls see(0), see(lanes) … for whole pairs of vectors, two pairs at a time as long as there are two.
+template <typename See>
+HWY_INLINE void for_each_vector(std::size_t columns, const See& see) {
+  const std::size_t lanes = hn::Lanes(Words());
+  std::size_t i = 0;
+  for (; i + 4 * lanes <= columns; i += 4 * lanes) {
+    see(i);
+    see(i + lanes);
+    see(i + 2 * lanes);
+    see(i + 3 * lanes);
+  }
+  for (; i < columns; i += 2 * lanes) {
+    see(i);
+    see(i + lanes);
+  }
+}
+
 /// Among those whose keys are at most `bound` the least fraction, compared crosswise in whole numbers, then
 /// the least name.
 std::uint32_t least_of(const Clusters& clusters, const std::uint32_t* row, std::uint32_t bound) {
@@ -150,10 +167,7 @@ HWY_INLINE std::uint32_t nearest(const Clusters& clusters, std::size_t name) {
   const auto look = [&](std::size_t i) HWY_ATTR {
     smallest.add(keys_of(hn::LoadU(d, row + i), clusters.weights + i), clusters.names + i);
   };
-  for (std::size_t i = 0; i < clusters.columns; i += 2 * hn::Lanes(d)) {
-    look(i);
-    look(i + hn::Lanes(d));
-  }
+  for_each_vector(clusters.columns, look);
   return nearest_by(clusters, row, smallest);
 }
 
@@ -206,10 +220,7 @@ HWY_INLINE Merge join(Clusters& clusters, std::uint32_t a, std::uint32_t b, std:
     hn::StoreU(sums, d, row + i);
     smallest.add(keys_of(sums, clusters.weights + i), clusters.names + i);
   };
-  for (std::size_t i = 0; i < clusters.columns; i += 2 * hn::Lanes(d)) {
-    add(i);
-    add(i + hn::Lanes(d));
-  }
+  for_each_vector(clusters.columns, add);
   if (clusters.are_written_at_once()) write_column(clusters, a);
   first.nearest = nearest_by(clusters, row, smallest);
   first.nearest_size = clusters[first.nearest].size;

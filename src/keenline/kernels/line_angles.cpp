@@ -1,6 +1,7 @@
 #include "keenline/kernels/line_angles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -57,7 +58,8 @@ HWY_INLINE Int angles_of(Float cosines) {
   for (std::size_t i = 1; i < arc_cosine_polynomial.size(); ++i)
     p = hn::Add(hn::Mul(p, c), hn::Set(d, arc_cosine_polynomial[i]));
   const Float root = hn::Sqrt(hn::Sub(hn::Set(d, 1.0F), c));
-  return hn::ConvertTo(di, hn::Add(hn::Mul(root, p), hn::Set(d, 0.5F)));
+  const Int rounded = hn::BitCast(di, hn::Add(hn::Mul(root, p), hn::Set(d, whole_number_offset)));
+  return hn::Sub(rounded, hn::Set(di, std::bit_cast<std::int32_t>(whole_number_offset)));
 }
 
 /// Four rows of as many numbers as a vector has: column by column, those of column 4 b + r at
@@ -90,20 +92,20 @@ HWY_INLINE void tile(const Lines& padded, std::size_t i, std::size_t j, std::siz
   }
   HWY_ALIGN std::int32_t columns[4 * 16];
   transpose(rows, columns);
-  for (std::size_t c = 0; c < std::min(lanes, count - std::min(count, j)); ++c)
+  for (std::size_t c = 0; c < std::min(lanes, count - j); ++c)
     std::memcpy(angles + (j + c) * stride + i, columns + c % 4 * lanes + c / 4 * 4, 4 * sizeof(std::int32_t));
 }
 
 /// \pre lines.count <= largest_count_in_32_bits
 void all_angles(const Lines& lines, std::uint32_t* angles) {
   // Copies that whole vectors can be read from.
-  constexpr std::size_t room = largest_count_in_32_bits;
+  constexpr std::size_t room = row_length(largest_count_in_32_bits);
   HWY_ALIGN float x[room];
   HWY_ALIGN float y[room];
   HWY_ALIGN float z[room];
   const auto count = static_cast<std::size_t>(lines.count);
   const std::size_t stride = row_length(lines.count);
-  for (std::size_t i = 0; i < (count + 15) / 16 * 16; ++i) {
+  for (std::size_t i = 0; i < stride; ++i) {
     x[i] = i < count ? lines.x[i] : 0;
     y[i] = i < count ? lines.y[i] : 0;
     z[i] = i < count ? lines.z[i] : 0;
@@ -111,8 +113,9 @@ void all_angles(const Lines& lines, std::uint32_t* angles) {
   const Lines padded{x, y, z, lines.count};
   auto* const out = reinterpret_cast<std::int32_t*>(angles);
   const std::size_t lanes = hn::Lanes(Ints());
+  // From the diagonal on, not from where a vector begins; the last one ends with the row.
   for (std::size_t i = 0; i < count; i += 4)
-    for (std::size_t j = i / lanes * lanes; j < count; j += lanes) tile(padded, i, j, stride, out);
+    for (std::size_t j = i; j < count; j += lanes) tile(padded, i, std::min(j, stride - lanes), stride, out);
   for (std::size_t i = 0; i < count; ++i) out[i * stride + i] = 0;
 }
 
@@ -154,8 +157,8 @@ std::uint32_t line_angle(float cosine) {
   const float c = std::min(std::abs(cosine), 1.0F);
   float p = arc_cosine_polynomial[0];
   for (std::size_t i = 1; i < arc_cosine_polynomial.size(); ++i) p = p * c + arc_cosine_polynomial[i];
-  const float units = std::sqrt(1.0F - c) * p + 0.5F;
-  return static_cast<std::uint32_t>(units);
+  const float rounded = std::sqrt(1.0F - c) * p + whole_number_offset;
+  return std::bit_cast<std::uint32_t>(rounded) - std::bit_cast<std::uint32_t>(whole_number_offset);
 }
 
 template <typename Sum>

@@ -13,11 +13,14 @@ inline constexpr double angle_units_per_degree = 728.0;
 inline constexpr std::uint32_t right_angle = 65520;
 
 /// The arc cosine of 0 <= c <= 1 is sqrt(1 - c) P(c), in units, highest power first: the form of Abramowitz &
-/// Stegun 4.4.46 with as many terms as units ask for. |error| <= 0.005 units, and exact at 0. Not the C
+/// Stegun 4.4.46 with as many terms as units ask for. |error| <= 0.03 units, and exact at 0. Not the C
 /// library's acos, whose last bit depends on the CPU it runs on. Every target evaluates it by the same
 /// multiplications and additions, none of them fused.
-inline constexpr std::array<float, 7> arc_cosine_polynomial{111.76205F, -509.00394F, 1167.3652F, -2057.043F,
-                                                            3706.7136F, -8951.011F,  65520.0F};
+inline constexpr std::array<float, 6> arc_cosine_polynomial{-210.72471F, 874.4677F,   -1928.2734F,
+                                                            3682.4426F,  -8949.5596F, 65520.0F};
+
+/// Floats so large are whole numbers: added to an angle it leaves that angle, rounded, in the last bits.
+inline constexpr float whole_number_offset = 0x1p23F;
 
 /// Unit vectors, one array per coordinate. A line and its reverse are the same.
 struct Lines {
