@@ -28,6 +28,8 @@ await build({
 });
 const files = chosen.map((name) => join(out, name.replace(".ts", ".cjs")));
 const only = process.env.ONLY ? [`--test-name-pattern=${process.env.ONLY}`] : [];
-const { status } = spawnSync(process.execPath, ["--test", ...only, ...files], { stdio: "inherit" });
+// What the tests and their browser leave behind goes with the rest.
+const env = { ...process.env, TMPDIR: out };
+const { status } = spawnSync(process.execPath, ["--test", ...only, ...files], { stdio: "inherit", env });
 await rm(out, { recursive: true });
 process.exitCode = status ?? 1;
