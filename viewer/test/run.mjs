@@ -31,5 +31,5 @@ const only = process.env.ONLY ? [`--test-name-pattern=${process.env.ONLY}`] : []
 // What the tests and their browser leave behind goes with the rest.
 const env = { ...process.env, TMPDIR: out };
 const { status } = spawnSync(process.execPath, ["--test", ...only, ...files], { stdio: "inherit", env });
-await rm(out, { recursive: true });
+await rm(out, { recursive: true, maxRetries: 5 }); // a browser may still be closing
 process.exitCode = status ?? 1;

@@ -63,7 +63,7 @@ class TensorVoting {
   }
 
   static Election elect(const kernels::Symmetric3& tensor) {
-    return {tensor.xx + tensor.yy + tensor.zz, kernels::saliency_of(kernels::eigen_decomposition(tensor))};
+    return {kernels::trace(tensor), kernels::saliency_of(kernels::eigen_decomposition(tensor))};
   }
 
   const PointCloud& cloud_;

@@ -42,8 +42,6 @@ void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q, double negligibl
   a[p][q] = a[q][p] = 0;
 }
 
-double trace(const Symmetric3& matrix) { return matrix.xx + matrix.yy + matrix.zz; }
-
 Symmetric3 scaled(double factor, const Symmetric3& m) {
   return {factor * m.xx, factor * m.xy, factor * m.xz, factor * m.yy, factor * m.yz, factor * m.zz};
 }

@@ -13,6 +13,9 @@ struct Symmetric3 {
   return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
 }
 
+/// The sum of the eigenvalues.
+[[nodiscard]] inline double trace(const Symmetric3& matrix) { return matrix.xx + matrix.yy + matrix.zz; }
+
 /// matrix += weight v vᵀ
 inline void add_square(Symmetric3& matrix, const std::array<double, 3>& v, double weight) {
   const std::array<double, 3> w{weight * v[0], weight * v[1], weight * v[2]};
